@@ -5,7 +5,7 @@ import random
 from dataclasses import dataclass
 
 # decorators of what is compiled
-COMPILERS = ("leaf", "stage", "shared", "entry", "address", "family")
+COMPILERS = ("leaf", "stage", "shared", "entry", "address", "family", "element")
 # folders of the package whose functions are changed
 FOLDERS = ("kernels", "elements", "integrate")
 SIGNS = {ast.Add: "-", ast.Sub: "+"}

@@ -720,7 +720,7 @@ def kernels():
     return found
 
 
-COMPILERS = ("leaf", "stage", "shared", "entry", "address", "family")
+COMPILERS = ("leaf", "stage", "shared", "entry", "address", "family", "element")
 
 
 def _name(decorator):

@@ -1,6 +1,7 @@
 """The digest of an entry's sources changes with everything that its function names, directly or not, and with nothing else."""
 
 import inspect
+import textwrap
 from types import ModuleType
 
 import pytest
@@ -136,6 +137,9 @@ def reached(function, found):
     if function in found:
         return
     found.add(function)
+    for cell in function.__closure__ or ():
+        if isinstance(cell.cell_contents, Function | Entry):
+            reached(cell.cell_contents.py_func, found)
     for name in {name for code in _codes(function.__code__) for name in code.co_names}:
         value = function.__globals__.get(name)
         for each in (value, *(vars(value).values() if isinstance(value, ModuleType) else ())):
@@ -159,10 +163,11 @@ def test_every_function_that_is_compiled_stands_in_what_its_entry_depends_on():
         functions = set()
         reached(entry.py_func, functions)
         for function in functions:
-            if function.__module__.startswith("nivel.elements."):
-                assert inspect.getsource(function) in texts[function.__module__].decode(), (entry.name, function)
+            module = str(inspect.getmodule(function.__code__).__name__)
+            if module.startswith("nivel.elements."):
+                assert textwrap.dedent(inspect.getsource(function)) in texts[module].decode(), (entry.name, function)
             else:
-                assert function.__module__ in texts, (entry.name, function)
+                assert module in texts, (entry.name, function)
 
 
 @pytest.mark.parametrize("module", ["a", "b", "c", "deep_d"])

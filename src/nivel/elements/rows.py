@@ -10,15 +10,42 @@
 Whole numbers are columns, indices of other things; the others are numbers. A kernel reads `columns[k, SpringRow.AT]` and
 `number[k, SpringRow.STIFFNESS]`. `SpringRow(output=…, at=…, stiffness=…)` is a row with everything that it needs, or an error, and
 `SpringRow.of(force, output=…, at=…)` takes the rest from a record, by the same names.
+
+A kernel that does the same with every row is the law of one of them:
+
+    @element
+    def stretch(machine, index, n, t): ...
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import update_wrapper
 from inspect import get_annotations
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, dataclass_transform
 
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import Family, family
+from nivel.kernels.record.record import record_at
+from nivel.native.function import stage
+
 _MISSING: Any = object()
+
+
+def element(law: Callable[..., Any]) -> Family:
+    """Decorator: `law(machine, index, n, t)` of one element, of its columns and numbers, as the family of all of them."""
+    of_one = stage(law)
+
+    def of_all(machine, number, t):
+        elements = record_at(machine).elements
+        for k in range(elements.span[number, 0], elements.span[number, 1]):
+            of_one(machine, elements.columns[k], elements.number[k], t)
+        return OK
+
+    update_wrapper(of_all, law)
+    del of_all.__wrapped__  # whose arguments Numba would take for its own
+    return family(of_all)
 
 
 class Filled(NamedTuple):

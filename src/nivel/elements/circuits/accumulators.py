@@ -23,9 +23,8 @@ from nivel.elements.circuits.smooth import ramp, root_flow, step
 from nivel.elements.circuits.symbol import Symbol, path, setting
 from nivel.elements.circuits.tangent import add_flow_by_pressure
 from nivel.elements.circuits.volumes import THETA
+from nivel.elements.rows import element
 from nivel.elements.states import StateFact
-from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Exponent, NotNegativePressure, Pressure, Temperature, VolumeFlow
@@ -119,8 +118,8 @@ ROUNDED = 0.1  # share of the friction within which it is rounded
 
 
 @called(Phase.FLOWS, 15)
-@family
-def rub(machine, number, t):
+@element
+def rub(machine, index, n, t):
     """Inlets of accumulators with pistons: what is left of the difference of pressure beyond their friction drives the flow,
 
     Q = K e (e² + c²)^(-1/4) + G Δp, e = R(Δp - F) - R(-Δp - F)
@@ -128,18 +127,15 @@ def rub(machine, number, t):
     A piston that sticks creeps by G: without it a step would not see that it breaks loose.
     """
     record = record_at(machine)
-    elements, circuit = record.elements, record.circuit
+    circuit = record.circuit
     secant = circuit.secant[0]
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b = index[FROM], index[TO]
-        difference = circuit.pressure[a] - circuit.pressure[b]
-        left = beyond(difference, n[STICK])
-        flow = n[FLOW] * root_flow(left, n[CORNER], secant) + n[CREEP] * difference
-        mass_flow = 0.5 * (circuit.density[a] + circuit.density[b]) * flow
-        lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
-        record.outputs.value[index[OUTPUT]] = flow
-    return OK
+    a, b = index[FROM], index[TO]
+    difference = circuit.pressure[a] - circuit.pressure[b]
+    left = beyond(difference, n[STICK])
+    flow = n[FLOW] * root_flow(left, n[CORNER], secant) + n[CREEP] * difference
+    mass_flow = 0.5 * (circuit.density[a] + circuit.density[b]) * flow
+    lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
+    record.outputs.value[index[OUTPUT]] = flow
 
 
 @leaf
@@ -150,22 +146,19 @@ def beyond(difference, friction):
 
 
 @slopes_of(rub)
-@family
-def add_slopes_of_inlets(machine, number, t):
+@element
+def add_slopes_of_inlets(machine, index, n, t):
     """Slopes of the flows through such inlets, as secants from F on."""
     record = record_at(machine)
-    elements, circuit = record.elements, record.circuit
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b = index[FROM], index[TO]
-        difference = circuit.pressure[a] - circuit.pressure[b]
-        left = beyond(difference, n[STICK])
-        density = 0.5 * (circuit.density[a] + circuit.density[b])
-        opened = step((np.abs(difference) - n[STICK]) / (ROUNDED * n[STICK]))
-        slope = density * (n[FLOW] * opened / np.sqrt(np.sqrt(left * left + n[CORNER] * n[CORNER])) + n[CREEP])
-        add_flow_by_pressure(circuit, a, b, a, slope)
-        add_flow_by_pressure(circuit, a, b, b, -slope)
-    return OK
+    circuit = record.circuit
+    a, b = index[FROM], index[TO]
+    difference = circuit.pressure[a] - circuit.pressure[b]
+    left = beyond(difference, n[STICK])
+    density = 0.5 * (circuit.density[a] + circuit.density[b])
+    opened = step((np.abs(difference) - n[STICK]) / (ROUNDED * n[STICK]))
+    slope = density * (n[FLOW] * opened / np.sqrt(np.sqrt(left * left + n[CORNER] * n[CORNER])) + n[CREEP])
+    add_flow_by_pressure(circuit, a, b, a, slope)
+    add_flow_by_pressure(circuit, a, b, b, -slope)
 
 
 def accumulator_nodes(builder: SystemBuilder, component: Accumulator, swept: Swept) -> Iterator[Node]:

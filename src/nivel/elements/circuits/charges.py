@@ -28,9 +28,8 @@ from nivel.elements.circuits.volumes import (
     PRESSURE,
     THETA,
 )
+from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
-from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf
 
@@ -48,46 +47,40 @@ def share_of_gas(room, pressure):
 
 
 @called(Phase.VOLUMES, 1, slow=True)
-@family
-def charge(machine, number, t):
+@element
+def charge(machine, index, n, t):
     """Put P among the constants of each volume."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index = elements.columns[k]
-        node = index[NODE]
-        room, known, own = circuit.room[node], circuit.known[node], elements.state[index[STATE]]
-        if room[PRECHARGE] != real(own):
-            room[PRECHARGE] = real(own)
-            known[OPEN] += CHANGED * (known[OPEN] + room[GAS])  # what is known holds for another P
-        by_state = 0.0
-        if known[PRESSURE] > room[PRECHARGE]:
-            by_state = -room[GAS] * share_of_gas(room, known[PRESSURE]) / (room[EXPONENT] * room[PRECHARGE])
-        circuit.volume[node] = by_state * (own - real(own))
-    return OK
+    node = index[NODE]
+    room, known, own = circuit.room[node], circuit.known[node], elements.state[index[STATE]]
+    if room[PRECHARGE] != real(own):
+        room[PRECHARGE] = real(own)
+        known[OPEN] += CHANGED * (known[OPEN] + room[GAS])  # what is known holds for another P
+    by_state = 0.0
+    if known[PRESSURE] > room[PRECHARGE]:
+        by_state = -room[GAS] * share_of_gas(room, known[PRESSURE]) / (room[EXPONENT] * room[PRECHARGE])
+    circuit.volume[node] = by_state * (own - real(own))
 
 
 @called(Phase.FLOWS, 13, slow=True)
-@family
-def exchange_heat(machine, number, t):
+@element
+def exchange_heat(machine, index, n, t):
     """Rates of P, and the heat that leaves the gas."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        room, own = circuit.room[index[NODE]], elements.state[index[STATE]]
-        pressure = circuit.pressure[index[NODE]]
-        left = (own / pressure) ** (1.0 / room[EXPONENT])
-        if real(left) > 1.0:
-            left = 0.0 * left + 1.0
-        over = room[EXPONENT] - 1.0
-        warmth = own / n[FILLED] * np.exp(-over * np.log(left))
-        rate = own * (1.0 / warmth - 1.0) / n[TIME]
-        elements.state_rate[index[STATE]] += rate
-        work = (np.exp(-over * np.log(left)) - 1.0) / over if over > 0.0 else -np.log(left)
-        lose(machine, -room[GAS] * work * rate)
-        record.outputs.value[index[OUTPUT]] = n[SURROUNDINGS] * warmth
-    return OK
+    room, own = circuit.room[index[NODE]], elements.state[index[STATE]]
+    pressure = circuit.pressure[index[NODE]]
+    left = (own / pressure) ** (1.0 / room[EXPONENT])
+    if real(left) > 1.0:
+        left = 0.0 * left + 1.0
+    over = room[EXPONENT] - 1.0
+    warmth = own / n[FILLED] * np.exp(-over * np.log(left))
+    rate = own * (1.0 / warmth - 1.0) / n[TIME]
+    elements.state_rate[index[STATE]] += rate
+    work = (np.exp(-over * np.log(left)) - 1.0) / over if over > 0.0 else -np.log(left)
+    lose(machine, -room[GAS] * work * rate)
+    record.outputs.value[index[OUTPUT]] = n[SURROUNDINGS] * warmth
 
 
 @leaf
@@ -111,41 +104,35 @@ def room_by_theta(room, theta, pressure):
 
 
 @called(Phase.VOLUMES, 2, slow=True)
-@family
-def charge_nitrogen(machine, number, t):
+@element
+def charge_nitrogen(machine, index, n, t):
     """Put θ among the constants of each volume, and the pressure of its precharge's density."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index = elements.columns[k]
-        node = index[NODE]
-        room, known, own = circuit.room[node], circuit.known[node], elements.state[index[STATE]]
-        if room[THETA] != real(own):
-            room[THETA] = real(own)
-            room[PRECHARGE] = gas_state(real(room[NITROGEN]), real(own))[0]
-            known[OPEN] += CHANGED * (known[OPEN] + room[GAS])  # what is known holds for another θ
-        by_state = 0.0
-        if known[PRESSURE] > room[PRECHARGE]:
-            by_state = room_by_theta(room, real(own), known[PRESSURE])
-        circuit.volume[node] = by_state * (own - real(own))
-    return OK
+    node = index[NODE]
+    room, known, own = circuit.room[node], circuit.known[node], elements.state[index[STATE]]
+    if room[THETA] != real(own):
+        room[THETA] = real(own)
+        room[PRECHARGE] = gas_state(real(room[NITROGEN]), real(own))[0]
+        known[OPEN] += CHANGED * (known[OPEN] + room[GAS])  # what is known holds for another θ
+    by_state = 0.0
+    if known[PRESSURE] > room[PRECHARGE]:
+        by_state = room_by_theta(room, real(own), known[PRESSURE])
+    circuit.volume[node] = by_state * (own - real(own))
 
 
 @called(Phase.FLOWS, 14, slow=True)
-@family
-def warm_nitrogen(machine, number, t):
+@element
+def warm_nitrogen(machine, index, n, t):
     """Rates of θ, and the heat that leaves the gas."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        room, own = circuit.room[index[NODE]], elements.state[index[STATE]]
-        rho, T = gas_at(room, own, circuit.pressure[index[NODE]])
-        _, _, _, _, heat, _ = gas_state(rho, T)
-        _, _, _, _, heat_at_rest, _ = gas_state(room[NITROGEN], own)
-        rate = heat * (n[SURROUNDINGS] / T - 1.0) / n[TIME]  # of s
-        elements.state_rate[index[STATE]] += rate * own / heat_at_rest
-        # the energy on the adiabat is counted from θ on
-        lose(machine, -room[GAS] * room[NITROGEN] * (T - own) * rate)
-        record.outputs.value[index[OUTPUT]] = T
-    return OK
+    room, own = circuit.room[index[NODE]], elements.state[index[STATE]]
+    rho, T = gas_at(room, own, circuit.pressure[index[NODE]])
+    _, _, _, _, heat, _ = gas_state(rho, T)
+    _, _, _, _, heat_at_rest, _ = gas_state(room[NITROGEN], own)
+    rate = heat * (n[SURROUNDINGS] / T - 1.0) / n[TIME]  # of s
+    elements.state_rate[index[STATE]] += rate * own / heat_at_rest
+    # the energy on the adiabat is counted from θ on
+    lose(machine, -room[GAS] * room[NITROGEN] * (T - own) * rate)
+    record.outputs.value[index[OUTPUT]] = T

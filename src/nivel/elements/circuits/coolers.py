@@ -37,6 +37,7 @@ from nivel.elements.circuits.restrictions import add_flow, rated, restrict
 from nivel.elements.circuits.smooth import magnitude_within
 from nivel.elements.circuits.symbol import Symbol, path
 from nivel.elements.circuits.volumes import VOLUME, find_pressure, give_pressure
+from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import NO_VOLUME, OK
 from nivel.kernels.record.function import evaluate_function
@@ -107,40 +108,34 @@ def find_warm_pressures(machine, number, t):
 
 
 @called(Phase.BALANCE, 0)
-@family
-def warm(machine, number, t):
+@element
+def warm(machine, index, n, t):
     """Rates of the temperatures of volumes; at rest they go back to that of the start."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        node = index[NODE]
-        f, own = circuit.fluid[circuit.node[node, 0]], circuit.node[node, WARMTH]
-        mass, expansion = elements.state[index[STATE]], f[EXPANSION] * circuit.enthalpy[node]
-        heat = circuit.inflow[node] - n[WALLS] * (circuit.temperature[node] - f[AROUND])
-        rate = heat / (mass * (f[HEAT_CAPACITY] + expansion))
-        if record.sampled.at_rest[0] == 1:
-            rate = CALM * (f[START] - elements.state[own])
-        elements.state_rate[own] += rate
-        lose(machine, -mass * expansion * rate)
-    return OK
+    node = index[NODE]
+    f, own = circuit.fluid[circuit.node[node, 0]], circuit.node[node, WARMTH]
+    mass, expansion = elements.state[index[STATE]], f[EXPANSION] * circuit.enthalpy[node]
+    heat = circuit.inflow[node] - n[WALLS] * (circuit.temperature[node] - f[AROUND])
+    rate = heat / (mass * (f[HEAT_CAPACITY] + expansion))
+    if record.sampled.at_rest[0] == 1:
+        rate = CALM * (f[START] - elements.state[own])
+    elements.state_rate[own] += rate
+    lose(machine, -mass * expansion * rate)
 
 
 @slopes_of(warm)
-@family
-def add_slopes(machine, number, t):
+@element
+def add_slopes(machine, index, n, t):
     """Slopes of the temperatures with themselves; heat is slow beside steps."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
     tangent, count = circuit.tangent, circuit.node.shape[0]
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        node = index[NODE]
-        capacity = circuit.fluid[circuit.node[node, 0], HEAT_CAPACITY]
-        own = tangent.unknown[circuit.node[node, WARMTH]]
-        falling = circuit.inflow[count + node] + n[WALLS] / capacity
-        tangent.slopes[own, own] -= falling / elements.state[index[STATE]]
-    return OK
+    node = index[NODE]
+    capacity = circuit.fluid[circuit.node[node, 0], HEAT_CAPACITY]
+    own = tangent.unknown[circuit.node[node, WARMTH]]
+    falling = circuit.inflow[count + node] + n[WALLS] / capacity
+    tangent.slopes[own, own] -= falling / elements.state[index[STATE]]
 
 
 # columns of `columns`; FLOW: output of the flow through it; functions of H [W/K] and T_c [K]. Output: heat [W]
@@ -150,24 +145,21 @@ STILL = 1e-6
 
 
 @called(Phase.FLOWS, 3, slow=True)
-@family
-def cool(machine, number, t):
+@element
+def cool(machine, index, n, t):
     """Heat of all coolers, taken from the liquid behind them."""
     record = record_at(machine)
-    elements, circuit, value = record.elements, record.circuit, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index = elements.columns[k]
-        a, b, flow = index[FROM], index[TO], value[index[FLOW]]
-        up, down = (a, b) if real(flow) >= 0.0 else (b, a)
-        capacity = circuit.fluid[circuit.node[a, 0], HEAT_CAPACITY]
-        mass_flow = 0.5 * (circuit.density[a] + circuit.density[b]) * flow
-        rate = capacity * magnitude_within(mass_flow, STILL)
-        units = evaluate_function(machine, index[CONDUCTANCE], t) / rate
-        heat = rate * (1.0 - np.exp(-units)) * (circuit.temperature[up] - evaluate_function(machine, index[COOLANT], t))
-        if circuit.node[down, WARMTH] != NONE:
-            circuit.inflow[down] -= heat
-        value[index[HEAT]] = heat
-    return OK
+    circuit, value = record.circuit, record.outputs.value
+    a, b, flow = index[FROM], index[TO], value[index[FLOW]]
+    up, down = (a, b) if real(flow) >= 0.0 else (b, a)
+    capacity = circuit.fluid[circuit.node[a, 0], HEAT_CAPACITY]
+    mass_flow = 0.5 * (circuit.density[a] + circuit.density[b]) * flow
+    rate = capacity * magnitude_within(mass_flow, STILL)
+    units = evaluate_function(machine, index[CONDUCTANCE], t) / rate
+    heat = rate * (1.0 - np.exp(-units)) * (circuit.temperature[up] - evaluate_function(machine, index[COOLANT], t))
+    if circuit.node[down, WARMTH] != NONE:
+        circuit.inflow[down] -= heat
+    value[index[HEAT]] = heat
 
 
 def add_cooler(builder: SystemBuilder, component: Cooler) -> None:

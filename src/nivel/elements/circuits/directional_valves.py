@@ -18,11 +18,10 @@ from nivel.elements.circuits.smooth import clipped
 from nivel.elements.circuits.spools import Switching, add_switch, switch
 from nivel.elements.circuits.symbol import Symbol
 from nivel.elements.circuits.ways import CENTRED, EDGES, PORTS, Centre, Ways, centre_pairs, directional_valve
+from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import tanh
-from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import evaluate_function
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Frequency, Leakage, PositiveNumber, Share
@@ -107,49 +106,43 @@ LEAST, FREQUENCY, DAMPING, RATE = 0, 1, 2, 3
 
 
 @called(Phase.POSITIONS, 1)
-@family
-def move(machine, number, t):
+@element
+def move(machine, index, n, t):
     """Spools: at the command itself, or ü = ω² (u_c - u) - 2 ζ ω u̇, or with a greatest speed r, u̇ = r tanh(ω (u_c - u)/r)."""
     record = record_at(machine)
     elements = record.elements
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        command = clipped(evaluate_function(machine, index[COMMAND], t), n[LEAST])
-        if index[STATE] == NONE:
-            record.outputs.value[index[OUTPUT]] = command
-            continue
-        own, omega, rate = index[STATE], n[FREQUENCY], elements.state_rate
-        u = elements.state[own]
-        if index[SPEED] == NONE:
-            rate[own] += n[RATE] * tanh(omega * (command - u) / n[RATE])
-        else:
-            speed = elements.state[index[SPEED]]
-            rate[own] += speed
-            rate[index[SPEED]] += omega * omega * (command - u) - 2.0 * n[DAMPING] * omega * speed
-        record.outputs.value[index[OUTPUT]] = u
-    return OK
+    command = clipped(evaluate_function(machine, index[COMMAND], t), n[LEAST])
+    if index[STATE] == NONE:
+        record.outputs.value[index[OUTPUT]] = command
+        return
+    own, omega, rate = index[STATE], n[FREQUENCY], elements.state_rate
+    u = elements.state[own]
+    if index[SPEED] == NONE:
+        rate[own] += n[RATE] * tanh(omega * (command - u) / n[RATE])
+    else:
+        speed = elements.state[index[SPEED]]
+        rate[own] += speed
+        rate[index[SPEED]] += omega * omega * (command - u) - 2.0 * n[DAMPING] * omega * speed
+    record.outputs.value[index[OUTPUT]] = u
 
 
 @slopes_of(move)
-@family
-def add_slopes_of_spools(machine, number, t):
+@element
+def add_slopes_of_spools(machine, index, n, t):
     """Slopes of the positions and speeds of spools, for commands that do not depend on the state."""
     record = record_at(machine)
     elements, tangent = record.elements, record.circuit.tangent
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        if index[STATE] == NONE:
-            continue
-        own, omega = tangent.unknown[index[STATE]], n[FREQUENCY]
-        if index[SPEED] == NONE:
-            share = elements.state_rate[index[STATE]] / n[RATE]
-            tangent.slopes[own, own] -= omega * (1.0 - share * share)
-        else:
-            speed = tangent.unknown[index[SPEED]]
-            tangent.slopes[own, speed] += 1.0
-            tangent.slopes[speed, own] -= omega * omega
-            tangent.slopes[speed, speed] -= 2.0 * n[DAMPING] * omega
-    return OK
+    if index[STATE] == NONE:
+        return
+    own, omega = tangent.unknown[index[STATE]], n[FREQUENCY]
+    if index[SPEED] == NONE:
+        share = elements.state_rate[index[STATE]] / n[RATE]
+        tangent.slopes[own, own] -= omega * (1.0 - share * share)
+    else:
+        speed = tangent.unknown[index[SPEED]]
+        tangent.slopes[own, speed] += 1.0
+        tangent.slopes[speed, own] -= omega * omega
+        tangent.slopes[speed, speed] -= 2.0 * n[DAMPING] * omega
 
 
 def add_directional(builder: SystemBuilder, component: DirectionalValve) -> None:

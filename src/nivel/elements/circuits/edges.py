@@ -26,10 +26,9 @@ from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import root_flow
 from nivel.elements.circuits.spools import SYMBOL
 from nivel.elements.circuits.tangent import add_by_pressure, add_flow_by_column, add_flow_by_pressure
+from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
-from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import table_value
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import Leakage, Pressure, Share
@@ -195,59 +194,53 @@ def rise_of_conductance(functions, index, n, u, difference):
 
 
 @called(Phase.FLOWS, 12)
-@family
-def meter(machine, number, t):
+@element
+def meter(machine, index, n, t):
     """Flows of all edges."""
     record = record_at(machine)
     elements, circuit, functions = record.elements, record.circuit, record.functions
     secant = circuit.secant[0]
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b = index[FROM], index[TO]
-        u = record.outputs.value[index[POSITION]]
-        difference = circuit.pressure[a] - circuit.pressure[b]
-        conductance, _ = conductance_at(functions, index, n, u, real(difference))
-        if secant == 0:
-            rise = rise_of_conductance(functions, index, n, real(u), real(difference))
-            way = rise if real(difference) >= 0.0 else -rise
-            conductance = conductance + way * (difference - real(difference))
-        flow = conductance * root_flow(difference, n[CORNER], secant) + n[LEAK] / thickness(circuit, a, b) * difference
-        mass_flow = 0.5 * (circuit.density[a] + circuit.density[b]) * flow
-        lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
-        record.outputs.value[index[OUTPUT]] = flow
-        if index[SPEED] != NONE:
-            elements.state_rate[index[SPEED]] += n[FORCE] * flow * root_flow(difference, n[CORNER], 0)
-    return OK
+    a, b = index[FROM], index[TO]
+    u = record.outputs.value[index[POSITION]]
+    difference = circuit.pressure[a] - circuit.pressure[b]
+    conductance, _ = conductance_at(functions, index, n, u, real(difference))
+    if secant == 0:
+        rise = rise_of_conductance(functions, index, n, real(u), real(difference))
+        way = rise if real(difference) >= 0.0 else -rise
+        conductance = conductance + way * (difference - real(difference))
+    flow = conductance * root_flow(difference, n[CORNER], secant) + n[LEAK] / thickness(circuit, a, b) * difference
+    mass_flow = 0.5 * (circuit.density[a] + circuit.density[b]) * flow
+    lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
+    record.outputs.value[index[OUTPUT]] = flow
+    if index[SPEED] != NONE:
+        elements.state_rate[index[SPEED]] += n[FORCE] * flow * root_flow(difference, n[CORNER], 0)
 
 
 @slopes_of(meter)
-@family
-def add_slopes(machine, number, t):
+@element
+def add_slopes(machine, index, n, t):
     """Slopes of all flows, those with pressures as secants."""
     record = record_at(machine)
-    elements, circuit, functions = record.elements, record.circuit, record.functions
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b = index[FROM], index[TO]
-        difference = circuit.pressure[a] - circuit.pressure[b]
-        density = 0.5 * (circuit.density[a] + circuit.density[b])
-        through = density / np.sqrt(np.sqrt(difference * difference + n[CORNER] * n[CORNER]))
-        u = record.outputs.value[index[POSITION]]
-        conductance, slope = conductance_at(functions, index, n, u, difference)
-        by_pressure = through * conductance + density * n[LEAK] / thickness(circuit, a, b)
-        if by_pressure != 0.0:
-            add_flow_by_pressure(circuit, a, b, a, by_pressure)
-            add_flow_by_pressure(circuit, a, b, b, -by_pressure)
-        state = circuit.tangent.source[index[POSITION], 0]
-        if state != NONE and slope != 0.0:
-            add_flow_by_column(circuit, a, b, state, through * difference * slope)
-        if index[SPEED] != NONE:
-            size = np.sqrt(difference * difference + n[CORNER] * n[CORNER])
-            tangent = circuit.tangent
-            row = tangent.slopes[tangent.unknown[index[SPEED]]]
-            by_difference = n[FORCE] * record.outputs.value[index[OUTPUT]] / np.sqrt(size)
-            add_by_pressure(circuit, row, a, by_difference)
-            add_by_pressure(circuit, row, b, -by_difference)
-            if state != NONE:
-                row[state] += n[FORCE] * slope * difference * difference / size
-    return OK
+    circuit, functions = record.circuit, record.functions
+    a, b = index[FROM], index[TO]
+    difference = circuit.pressure[a] - circuit.pressure[b]
+    density = 0.5 * (circuit.density[a] + circuit.density[b])
+    through = density / np.sqrt(np.sqrt(difference * difference + n[CORNER] * n[CORNER]))
+    u = record.outputs.value[index[POSITION]]
+    conductance, slope = conductance_at(functions, index, n, u, difference)
+    by_pressure = through * conductance + density * n[LEAK] / thickness(circuit, a, b)
+    if by_pressure != 0.0:
+        add_flow_by_pressure(circuit, a, b, a, by_pressure)
+        add_flow_by_pressure(circuit, a, b, b, -by_pressure)
+    state = circuit.tangent.source[index[POSITION], 0]
+    if state != NONE and slope != 0.0:
+        add_flow_by_column(circuit, a, b, state, through * difference * slope)
+    if index[SPEED] != NONE:
+        size = np.sqrt(difference * difference + n[CORNER] * n[CORNER])
+        tangent = circuit.tangent
+        row = tangent.slopes[tangent.unknown[index[SPEED]]]
+        by_difference = n[FORCE] * record.outputs.value[index[OUTPUT]] / np.sqrt(size)
+        add_by_pressure(circuit, row, a, by_difference)
+        add_by_pressure(circuit, row, b, -by_difference)
+        if state != NONE:
+            row[state] += n[FORCE] * slope * difference * difference / size

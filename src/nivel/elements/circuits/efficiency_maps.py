@@ -34,10 +34,9 @@ from nivel.elements.circuits.rotary import (
 )
 from nivel.elements.circuits.smooth import magnitude_within, sign_within
 from nivel.elements.circuits.tangent import add_by_pressure, add_flow_by_pressure
+from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
-from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf, stage
 
@@ -89,60 +88,54 @@ def coefficients_at(machine, index, speed, pressure, setting):
 
 
 @called(Phase.FLOWS, 6)
-@family
-def lose_by_map(machine, number, t):
+@element
+def lose_by_map(machine, index, n, t):
     """Leaks and friction of all machines with maps."""
     record = record_at(machine)
-    elements, circuit, value = record.elements, record.circuit, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b, out = index[FROM], index[TO], index[OUTPUT]
-        omega, _ = turning(machine, index, n, t)
-        difference = circuit.pressure[b] - circuit.pressure[a]
-        size = magnitude_within(difference, SMALL)
-        speed, setting = magnitude_within(omega, SLOW), magnitude_within(value[out + SETTING], 1e-6)
-        conductance, share = coefficients_at(machine, index, speed, size, setting)
-        leak = conductance / thickness(circuit, a, b) * difference
-        torque = share * n[DISPLACEMENT] * size * sign_within(omega, SLOW)
-        power = torque * omega
-        flow = 0.5 * (circuit.density[a] + circuit.density[b]) * leak
-        lose_between(machine, b, a, flow, power + transfer(machine, b, a, flow))
-        if index[SPEED] == NONE:
-            add_coordinate_force(machine, index[COORDINATE], -n[RATIO] * torque)
-            circuit.power[DELIVERED] -= power
-        else:
-            record.control.power[0] += power
-            circuit.power[SUPPLIED] += power
-        value[out + FLOW] -= leak
-        value[out + TORQUE] += torque
-        value[out + POWER] += power
-    return OK
+    circuit, value = record.circuit, record.outputs.value
+    a, b, out = index[FROM], index[TO], index[OUTPUT]
+    omega, _ = turning(machine, index, n, t)
+    difference = circuit.pressure[b] - circuit.pressure[a]
+    size = magnitude_within(difference, SMALL)
+    speed, setting = magnitude_within(omega, SLOW), magnitude_within(value[out + SETTING], 1e-6)
+    conductance, share = coefficients_at(machine, index, speed, size, setting)
+    leak = conductance / thickness(circuit, a, b) * difference
+    torque = share * n[DISPLACEMENT] * size * sign_within(omega, SLOW)
+    power = torque * omega
+    flow = 0.5 * (circuit.density[a] + circuit.density[b]) * leak
+    lose_between(machine, b, a, flow, power + transfer(machine, b, a, flow))
+    if index[SPEED] == NONE:
+        add_coordinate_force(machine, index[COORDINATE], -n[RATIO] * torque)
+        circuit.power[DELIVERED] -= power
+    else:
+        record.control.power[0] += power
+        circuit.power[SUPPLIED] += power
+    value[out + FLOW] -= leak
+    value[out + TORQUE] += torque
+    value[out + POWER] += power
 
 
 @slopes_of(lose_by_map)
-@family
-def add_slopes(machine, number, t):
+@element
+def add_slopes(machine, index, n, t):
     """Slopes of leaks and friction with pressures, for C and c as they are."""
     record = record_at(machine)
-    elements, circuit, value = record.elements, record.circuit, record.outputs.value
+    circuit, value = record.circuit, record.outputs.value
     tangent = circuit.tangent
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b = index[FROM], index[TO]
-        omega, _ = turning(machine, index, n, t)
-        difference = circuit.pressure[b] - circuit.pressure[a]
-        size = magnitude_within(difference, SMALL)
-        speed, setting = magnitude_within(omega, SLOW), magnitude_within(value[index[OUTPUT] + SETTING], 1e-6)
-        conductance, share = coefficients_at(machine, index, speed, size, setting)
-        slope = 0.5 * (circuit.density[a] + circuit.density[b]) * conductance / thickness(circuit, a, b)
-        add_flow_by_pressure(circuit, a, b, a, slope)
-        add_flow_by_pressure(circuit, a, b, b, -slope)
-        if index[SPEED] == NONE:
-            row = tangent.effort[tangent.number[index[COORDINATE]]]
-            slope = n[RATIO] * share * n[DISPLACEMENT] * difference / size * sign_within(omega, SLOW)
-            add_by_pressure(circuit, row, b, -slope)
-            add_by_pressure(circuit, row, a, slope)
-    return OK
+    a, b = index[FROM], index[TO]
+    omega, _ = turning(machine, index, n, t)
+    difference = circuit.pressure[b] - circuit.pressure[a]
+    size = magnitude_within(difference, SMALL)
+    speed, setting = magnitude_within(omega, SLOW), magnitude_within(value[index[OUTPUT] + SETTING], 1e-6)
+    conductance, share = coefficients_at(machine, index, speed, size, setting)
+    slope = 0.5 * (circuit.density[a] + circuit.density[b]) * conductance / thickness(circuit, a, b)
+    add_flow_by_pressure(circuit, a, b, a, slope)
+    add_flow_by_pressure(circuit, a, b, b, -slope)
+    if index[SPEED] == NONE:
+        row = tangent.effort[tangent.number[index[COORDINATE]]]
+        slope = n[RATIO] * share * n[DISPLACEMENT] * difference / size * sign_within(omega, SLOW)
+        add_by_pressure(circuit, row, b, -slope)
+        add_by_pressure(circuit, row, a, slope)
 
 
 def map_tables(builder: SystemBuilder, component: RotaryMachine, *, pumps: bool) -> list[int]:

@@ -22,9 +22,8 @@ from nivel.elements.circuits.phase import Phase, called
 from nivel.elements.circuits.restrictions import REFERENCE_ROOT, add_flow, carry_heat, restrict
 from nivel.elements.circuits.smooth import step
 from nivel.elements.circuits.symbol import Symbol, path
+from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
-from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import NotNegativePressure, Pressure, Share, SonicConductance
@@ -93,21 +92,18 @@ def suction(n, vacuum):
 
 
 @called(Phase.FLOWS, 11)
-@family
-def draw(machine, number, t):
+@element
+def draw(machine, index, n, t):
     """Suction of all ejectors."""
     record = record_at(machine)
-    elements, circuit = record.elements, record.circuit
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b = index[SUCTION], index[EXHAUST]
-        f = circuit.fluid[circuit.node[a, 0]]
-        driven = step((circuit.pressure[index[INLET]] - circuit.pressure[b]) * (1.0 / n[DRIVE]))
-        flow = suction(n, circuit.pressure[b] - circuit.pressure[a]) * driven
-        mass_flow = flow * f[REFERENCE] / REFERENCE_ROOT
-        lose(machine, transfer(machine, a, b, mass_flow) - carry_heat(machine, a, b, mass_flow))
-        record.outputs.value[index[OUTPUT]] = flow
-    return OK
+    circuit = record.circuit
+    a, b = index[SUCTION], index[EXHAUST]
+    f = circuit.fluid[circuit.node[a, 0]]
+    driven = step((circuit.pressure[index[INLET]] - circuit.pressure[b]) * (1.0 / n[DRIVE]))
+    flow = suction(n, circuit.pressure[b] - circuit.pressure[a]) * driven
+    mass_flow = flow * f[REFERENCE] / REFERENCE_ROOT
+    lose(machine, transfer(machine, a, b, mass_flow) - carry_heat(machine, a, b, mass_flow))
+    record.outputs.value[index[OUTPUT]] = flow
 
 
 JET_RATIO = 0.5  # b of jets that do not say

@@ -22,11 +22,10 @@ from nivel.elements.circuits.rotary import SETTING, Inertia
 from nivel.elements.circuits.rotary import TORQUE as OF_TORQUE
 from nivel.elements.circuits.symbol import Symbol, path, setting
 from nivel.elements.circuits.tangent import add_by_pressure, add_flow_by_column
+from nivel.elements.rows import element
 from nivel.elements.states import Coupled, StateFact
 from nivel.kernels.algebra.analytic import real
-from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import evaluate_function, table_value
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import NotNegativeTorque, Share, Torques
@@ -82,15 +81,12 @@ INERTIA, PEAK, DROOP, DRAG, FIRST_RATIO = 0, 1, 2, 3, 4
 
 
 @called(Phase.STROKES, 1, slow=True)
-@family
-def turn(machine, number, t):
+@element
+def turn(machine, index, n, t):
     """Speeds, before what they turn."""
     record = record_at(machine)
     elements = record.elements
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index = elements.columns[k]
-        record.outputs.value[index[OUTPUT] + TURNING] = elements.state[index[STATE]]
-    return OK
+    record.outputs.value[index[OUTPUT] + TURNING] = elements.state[index[STATE]]
 
 
 @stage
@@ -111,59 +107,51 @@ def driving_torque(machine, index, n, t, omega):
 
 
 @called(Phase.BALANCE, 2)
-@family
-def drive(machine, number, t):
+@element
+def drive(machine, index, n, t):
     """Torques, and the rates of speeds, behind all pumps. The work of the shafts was counted with the pumps."""
     record = record_at(machine)
     elements, value, control = record.elements, record.outputs.value, record.control
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        own, out = index[STATE], index[OUTPUT]
-        omega = elements.state[own]
-        torque, _ = driving_torque(machine, index, n, t, omega)
-        load = evaluate_function(machine, index[LOAD], t)
-        left = torque - load
-        for i in range(MOST):
-            if index[FIRST_PUMP + WIDE * i] == NONE:
-                break
-            left = left - n[FIRST_RATIO + 2 * i] * value[index[FIRST_PUMP + WIDE * i]]
-        elements.state_rate[own] += left / n[INERTIA]
-        control.stored[0] += 0.5 * n[INERTIA] * omega * omega
-        control.power[0] += left * omega
-        value[out + TORQUE], value[out + POWER] = torque, torque * omega
-    return OK
+    own, out = index[STATE], index[OUTPUT]
+    omega = elements.state[own]
+    torque, _ = driving_torque(machine, index, n, t, omega)
+    load = evaluate_function(machine, index[LOAD], t)
+    left = torque - load
+    for i in range(MOST):
+        if index[FIRST_PUMP + WIDE * i] == NONE:
+            break
+        left = left - n[FIRST_RATIO + 2 * i] * value[index[FIRST_PUMP + WIDE * i]]
+    elements.state_rate[own] += left / n[INERTIA]
+    control.stored[0] += 0.5 * n[INERTIA] * omega * omega
+    control.power[0] += left * omega
+    value[out + TORQUE], value[out + POWER] = torque, torque * omega
 
 
 @slopes_of(drive)
-@family
-def add_slopes(machine, number, t):
+@element
+def add_slopes(machine, index, n, t):
     """Slopes of speeds, and of the flows that they make; those of losses are left out."""
     record = record_at(machine)
     elements, circuit, value = record.elements, record.circuit, record.outputs.value
     tangent = circuit.tangent
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        _, stiffness = driving_torque(machine, index, n, t, elements.state[index[STATE]])
-        own = tangent.unknown[index[STATE]]
-        row = tangent.slopes[own]
-        row[own] -= stiffness / n[INERTIA]
-        for i in range(MOST):
-            first = FIRST_PUMP + WIDE * i
-            if index[first] == NONE:
-                break
-            ratio, setting = n[FIRST_RATIO + 2 * i], index[first] + SETTING - OF_TORQUE
-            a, b, full = index[first + 1], index[first + 2], n[FIRST_RATIO + 2 * i + 1]
-            swept = full * value[setting]
-            taken = circuit.density[a] if swept > 0.0 else circuit.density[b]
-            add_flow_by_column(circuit, a, b, own, taken * swept * ratio)
-            slope = ratio * swept / n[INERTIA]
-            add_by_pressure(circuit, row, b, -slope)
-            add_by_pressure(circuit, row, a, slope)
-            if tangent.source[setting, 0] != NONE:
-                row[tangent.source[setting, 0]] -= (
-                    ratio * full * (circuit.pressure[b] - circuit.pressure[a]) / n[INERTIA]
-                )
-    return OK
+    _, stiffness = driving_torque(machine, index, n, t, elements.state[index[STATE]])
+    own = tangent.unknown[index[STATE]]
+    row = tangent.slopes[own]
+    row[own] -= stiffness / n[INERTIA]
+    for i in range(MOST):
+        first = FIRST_PUMP + WIDE * i
+        if index[first] == NONE:
+            break
+        ratio, setting = n[FIRST_RATIO + 2 * i], index[first] + SETTING - OF_TORQUE
+        a, b, full = index[first + 1], index[first + 2], n[FIRST_RATIO + 2 * i + 1]
+        swept = full * value[setting]
+        taken = circuit.density[a] if swept > 0.0 else circuit.density[b]
+        add_flow_by_column(circuit, a, b, own, taken * swept * ratio)
+        slope = ratio * swept / n[INERTIA]
+        add_by_pressure(circuit, row, b, -slope)
+        add_by_pressure(circuit, row, a, slope)
+        if tangent.source[setting, 0] != NONE:
+            row[tangent.source[setting, 0]] -= ratio * full * (circuit.pressure[b] - circuit.pressure[a]) / n[INERTIA]
 
 
 def present_engine(builder: SystemBuilder, component: Engine) -> None:

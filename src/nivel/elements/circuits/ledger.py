@@ -13,6 +13,7 @@ import numpy as np
 
 from nivel.elements.circuits.density import EXPANSION, HEAT_CAPACITY
 from nivel.elements.circuits.phase import Phase, called
+from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import family
@@ -128,15 +129,12 @@ def begin_ledger(machine, number, t):
 
 
 @called(Phase.BALANCE, 1)
-@family
-def balance_ledger(machine, number, t):
+@element
+def balance_ledger(machine, index, n, t):
     """Rates of these; at rest they are none, since only the state of the machine is asked for."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index = elements.columns[k]
-        record.outputs.value[index[LEDGER_OUTPUT]] = circuit.stored[0]
-        if record.sampled.at_rest[0] == 0:
-            for i in range(4):
-                elements.state_rate[index[FIRST_INTEGRAL] + i] += circuit.power[i]
-    return OK
+    record.outputs.value[index[LEDGER_OUTPUT]] = circuit.stored[0]
+    if record.sampled.at_rest[0] == 0:
+        for i in range(4):
+            elements.state_rate[index[FIRST_INTEGRAL] + i] += circuit.power[i]

@@ -31,9 +31,8 @@ from nivel.elements.circuits.pipe_losses import CRITICAL_REYNOLDS, loss, slope_o
 from nivel.elements.circuits.smooth import magnitude_within
 from nivel.elements.circuits.symbol import pipe
 from nivel.elements.circuits.tangent import add_by_pressure, add_flow_by_column
+from nivel.elements.rows import element
 from nivel.elements.states import StateFact
-from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import NotNegativeNumber, Pressure, Truth
@@ -120,63 +119,57 @@ def steady_loss(n, g, density, flow):
 
 
 @called(Phase.FLOWS, 9)
-@family
-def flow_in_lines(machine, number, t):
+@element
+def flow_in_lines(machine, index, n, t):
     """Rates of the flows of lines, and of what their friction remembers."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b = index[FROM], index[TO]
-        density, g = 0.5 * (circuit.density[a] + circuit.density[b]), thickening(circuit, a, b)
-        mass_flow = elements.state[index[STATE]]
-        flow = mass_flow / density
-        total = 0.0 * flow
-        for i in range(index[PARTS]):
-            own = index[FIRST_PART] + i
-            part = elements.state[own] + WEIGHTS[i] * flow
-            total += part
-            elements.state_rate[own] -= RATES[i] * n[DECAY] * g * part
-        driving = circuit.pressure[a] - circuit.pressure[b] - steady_loss(n, g, density, flow)
-        driving -= n[UNSTEADY] * g * density * total
-        elements.state_rate[index[STATE]] += n[SLENDER] * driving
-        stored = 0.5 * mass_flow * mass_flow / (n[SLENDER] * n[KINETIC_DENSITY])
-        circuit.stored[0] += stored
-        record.control.stored[0] += stored
-        power = transfer(machine, a, b, mass_flow) - mass_flow * driving / n[KINETIC_DENSITY]
-        lose_between(machine, a, b, mass_flow, power)
-        record.outputs.value[index[OUTPUT]] = flow
-    return OK
+    a, b = index[FROM], index[TO]
+    density, g = 0.5 * (circuit.density[a] + circuit.density[b]), thickening(circuit, a, b)
+    mass_flow = elements.state[index[STATE]]
+    flow = mass_flow / density
+    total = 0.0 * flow
+    for i in range(index[PARTS]):
+        own = index[FIRST_PART] + i
+        part = elements.state[own] + WEIGHTS[i] * flow
+        total += part
+        elements.state_rate[own] -= RATES[i] * n[DECAY] * g * part
+    driving = circuit.pressure[a] - circuit.pressure[b] - steady_loss(n, g, density, flow)
+    driving -= n[UNSTEADY] * g * density * total
+    elements.state_rate[index[STATE]] += n[SLENDER] * driving
+    stored = 0.5 * mass_flow * mass_flow / (n[SLENDER] * n[KINETIC_DENSITY])
+    circuit.stored[0] += stored
+    record.control.stored[0] += stored
+    power = transfer(machine, a, b, mass_flow) - mass_flow * driving / n[KINETIC_DENSITY]
+    lose_between(machine, a, b, mass_flow, power)
+    record.outputs.value[index[OUTPUT]] = flow
 
 
 @slopes_of(flow_in_lines)
-@family
-def add_slopes(machine, number, t):
+@element
+def add_slopes(machine, index, n, t):
     """Slopes of flows and of what their friction remembers."""
     record = record_at(machine)
-    elements, circuit, value = record.elements, record.circuit, record.outputs.value
+    circuit, value = record.circuit, record.outputs.value
     tangent = circuit.tangent
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b = index[FROM], index[TO]
-        density, g = 0.5 * (circuit.density[a] + circuit.density[b]), thickening(circuit, a, b)
-        flow = value[index[OUTPUT]]
-        steady = slope_of_loss(n, g, flow)
-        steady += 2.0 * n[BENDS] * magnitude_within(flow, n[SMALL])
-        own = tangent.unknown[index[STATE]]
-        row = tangent.slopes[own]
-        add_by_pressure(circuit, row, a, n[SLENDER])
-        add_by_pressure(circuit, row, b, -n[SLENDER])
-        row[own] -= n[SLENDER] * steady
-        for i in range(index[PARTS]):
-            part = tangent.unknown[index[FIRST_PART] + i]
-            row[part] -= n[SLENDER] * n[UNSTEADY] * g * density
-            row[own] -= n[SLENDER] * n[UNSTEADY] * g * WEIGHTS[i]
-            decay = RATES[i] * n[DECAY] * g
-            tangent.slopes[part, part] -= decay
-            tangent.slopes[part, own] -= decay * WEIGHTS[i] / density
-        add_flow_by_column(circuit, a, b, own, 1.0)
-    return OK
+    a, b = index[FROM], index[TO]
+    density, g = 0.5 * (circuit.density[a] + circuit.density[b]), thickening(circuit, a, b)
+    flow = value[index[OUTPUT]]
+    steady = slope_of_loss(n, g, flow)
+    steady += 2.0 * n[BENDS] * magnitude_within(flow, n[SMALL])
+    own = tangent.unknown[index[STATE]]
+    row = tangent.slopes[own]
+    add_by_pressure(circuit, row, a, n[SLENDER])
+    add_by_pressure(circuit, row, b, -n[SLENDER])
+    row[own] -= n[SLENDER] * steady
+    for i in range(index[PARTS]):
+        part = tangent.unknown[index[FIRST_PART] + i]
+        row[part] -= n[SLENDER] * n[UNSTEADY] * g * density
+        row[own] -= n[SLENDER] * n[UNSTEADY] * g * WEIGHTS[i]
+        decay = RATES[i] * n[DECAY] * g
+        tangent.slopes[part, part] -= decay
+        tangent.slopes[part, own] -= decay * WEIGHTS[i] / density
+    add_flow_by_column(circuit, a, b, own, 1.0)
 
 
 def line_nodes(builder: SystemBuilder, component: Line, swept: Swept) -> Iterator[Node]:

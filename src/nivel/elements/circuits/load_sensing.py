@@ -24,9 +24,8 @@ from nivel.elements.circuits.spool_valves import SpoolValve, closed_until
 from nivel.elements.circuits.symbol import Symbol, circle, path
 from nivel.elements.circuits.tangent import add_by_pressure
 from nivel.elements.circuits.volumes import SIGNAL
+from nivel.elements.rows import element
 from nivel.elements.states import StateFact
-from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Share
@@ -77,57 +76,51 @@ def feeds(machine, position, n, i):
 
 
 @called(Phase.FLOWS, 4)
-@family
-def sense_loads(machine, number, t):
+@element
+def sense_loads(machine, index, n, t):
     """Rates of the signals."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        highest = 0.0 * n[LAG]
-        for i in range(MOST):
-            first = FIRST + WIDE * i
-            if index[first] == NONE:
-                break
-            to_a, to_b = feeds(machine, index[first + POSITION], n, i)
-            tank = circuit.pressure[index[first + NODE_T]]
-            load = tank + to_a * (circuit.pressure[index[first + NODE_A]] - tank)
-            load += to_b * (circuit.pressure[index[first + NODE_B]] - tank)
-            highest = maximum_within(highest, load, ROUNDED)
-        own = index[STATE]
-        elements.state_rate[own] += (highest - elements.state[own]) / n[LAG]
-    return OK
+    highest = 0.0 * n[LAG]
+    for i in range(MOST):
+        first = FIRST + WIDE * i
+        if index[first] == NONE:
+            break
+        to_a, to_b = feeds(machine, index[first + POSITION], n, i)
+        tank = circuit.pressure[index[first + NODE_T]]
+        load = tank + to_a * (circuit.pressure[index[first + NODE_A]] - tank)
+        load += to_b * (circuit.pressure[index[first + NODE_B]] - tank)
+        highest = maximum_within(highest, load, ROUNDED)
+    own = index[STATE]
+    elements.state_rate[own] += (highest - elements.state[own]) / n[LAG]
 
 
 @slopes_of(sense_loads)
-@family
-def add_slopes(machine, number, t):
+@element
+def add_slopes(machine, index, n, t):
     """Slopes of the signals with pressures; what positions of valves change in them is left out."""
     record = record_at(machine)
-    elements, circuit = record.elements, record.circuit
+    circuit = record.circuit
     tangent = circuit.tangent
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        own, highest = tangent.unknown[index[STATE]], 0.0
-        row = tangent.slopes[own]
-        for i in range(MOST):
-            first = FIRST + WIDE * i
-            if index[first] == NONE:
-                break
-            to_a, to_b = feeds(machine, index[first + POSITION], n, i)
-            a, b, drain = index[first + NODE_A], index[first + NODE_B], index[first + NODE_T]
-            tank = circuit.pressure[drain]
-            load = tank + to_a * (circuit.pressure[a] - tank) + to_b * (circuit.pressure[b] - tank)
-            lead = (load - highest) / np.sqrt((load - highest) ** 2 + ROUNDED * ROUNDED)
-            for j in range(row.shape[0]):
-                row[j] *= 0.5 * (1.0 - lead)
-            share = 0.5 * (1.0 + lead) / n[LAG]
-            add_by_pressure(circuit, row, a, share * to_a)
-            add_by_pressure(circuit, row, b, share * to_b)
-            add_by_pressure(circuit, row, drain, share * (1.0 - to_a - to_b))
-            highest = maximum_within(highest, load, ROUNDED)
-        row[own] -= 1.0 / n[LAG]
-    return OK
+    own, highest = tangent.unknown[index[STATE]], 0.0
+    row = tangent.slopes[own]
+    for i in range(MOST):
+        first = FIRST + WIDE * i
+        if index[first] == NONE:
+            break
+        to_a, to_b = feeds(machine, index[first + POSITION], n, i)
+        a, b, drain = index[first + NODE_A], index[first + NODE_B], index[first + NODE_T]
+        tank = circuit.pressure[drain]
+        load = tank + to_a * (circuit.pressure[a] - tank) + to_b * (circuit.pressure[b] - tank)
+        lead = (load - highest) / np.sqrt((load - highest) ** 2 + ROUNDED * ROUNDED)
+        for j in range(row.shape[0]):
+            row[j] *= 0.5 * (1.0 - lead)
+        share = 0.5 * (1.0 + lead) / n[LAG]
+        add_by_pressure(circuit, row, a, share * to_a)
+        add_by_pressure(circuit, row, b, share * to_b)
+        add_by_pressure(circuit, row, drain, share * (1.0 - to_a - to_b))
+        highest = maximum_within(highest, load, ROUNDED)
+    row[own] -= 1.0 / n[LAG]
 
 
 def signal_nodes(builder: SystemBuilder, component: LoadSensing, _: Swept) -> Iterator[Node]:

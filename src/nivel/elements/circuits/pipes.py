@@ -16,10 +16,9 @@ from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.pipe_losses import CRITICAL, CRITICAL_REYNOLDS, RESISTANCE, flow_ratio, loss, slope_of_loss
 from nivel.elements.circuits.symbol import pipe
 from nivel.elements.circuits.tangent import add_flow_by_pressure
+from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real
-from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.machine.core.coefficient import Truth
 from nivel.machine.given import Field
@@ -50,42 +49,36 @@ OUTPUT, FROM, TO = 0, 1, 2
 
 
 @called(Phase.FLOWS, 10)
-@family
-def flow_in_pipes(machine, number, t):
+@element
+def flow_in_pipes(machine, index, n, t):
     """Flows through pipes without inertia."""
     record = record_at(machine)
-    elements, circuit = record.elements, record.circuit
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b = index[FROM], index[TO]
-        density, g = 0.5 * (circuit.density[a] + circuit.density[b]), thickening(circuit, a, b)
-        difference = circuit.pressure[a] - circuit.pressure[b]
-        critical = real(n[CRITICAL]) * real(g)
-        scale = real(n[RESISTANCE]) * real(g) * real(density) * critical
-        found = flow_ratio(real(difference) / scale) * critical
-        resistance = loss(n, g, density, found + 0.0 * difference)
-        flow = found + (difference - resistance) / (real(density) * slope_of_loss(n, real(g), found))
-        mass_flow = density * flow
-        lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
-        record.outputs.value[index[OUTPUT]] = flow
-    return OK
+    circuit = record.circuit
+    a, b = index[FROM], index[TO]
+    density, g = 0.5 * (circuit.density[a] + circuit.density[b]), thickening(circuit, a, b)
+    difference = circuit.pressure[a] - circuit.pressure[b]
+    critical = real(n[CRITICAL]) * real(g)
+    scale = real(n[RESISTANCE]) * real(g) * real(density) * critical
+    found = flow_ratio(real(difference) / scale) * critical
+    resistance = loss(n, g, density, found + 0.0 * difference)
+    flow = found + (difference - resistance) / (real(density) * slope_of_loss(n, real(g), found))
+    mass_flow = density * flow
+    lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
+    record.outputs.value[index[OUTPUT]] = flow
 
 
 @slopes_of(flow_in_pipes)
-@family
-def add_slopes(machine, number, t):
+@element
+def add_slopes(machine, index, n, t):
     """Slopes of flows through pipes, as secants."""
     record = record_at(machine)
-    elements, circuit, value = record.elements, record.circuit, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b = index[FROM], index[TO]
-        g = thickening(circuit, a, b)
-        sixth = (value[index[OUTPUT]] / (n[CRITICAL] * g)) ** 6
-        secant = n[RESISTANCE] * g * (1.0 + sixth) ** 0.125
-        add_flow_by_pressure(circuit, a, b, a, 1.0 / secant)
-        add_flow_by_pressure(circuit, a, b, b, -1.0 / secant)
-    return OK
+    circuit, value = record.circuit, record.outputs.value
+    a, b = index[FROM], index[TO]
+    g = thickening(circuit, a, b)
+    sixth = (value[index[OUTPUT]] / (n[CRITICAL] * g)) ** 6
+    secant = n[RESISTANCE] * g * (1.0 + sixth) ** 0.125
+    add_flow_by_pressure(circuit, a, b, a, 1.0 / secant)
+    add_flow_by_pressure(circuit, a, b, b, -1.0 / secant)
 
 
 def add_pipe(builder: SystemBuilder, component: Pipe) -> None:

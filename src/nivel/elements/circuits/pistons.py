@@ -16,6 +16,7 @@ from nivel.elements.circuits.ledger import DELIVERED
 from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import magnitude_within, ramp, step
 from nivel.elements.circuits.tangent import add_by_pressure, softness
+from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real, tanh
 from nivel.kernels.core.status import OK
 from nivel.kernels.forces.impact import impact, meet, part, slopes_of_impact
@@ -135,52 +136,43 @@ def guide(machine, number, t):
 
 
 @called(Phase.FLOWS, 1)
-@family
-def press(machine, number, t):
+@element
+def press(machine, index, n, t):
     """Forces of the pressures in chambers."""
     record = record_at(machine)
-    elements, circuit, coordinates = record.elements, record.circuit, record.coordinates
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        q, out = index[COORDINATE], index[OUTPUT]
-        _, area = swept(n, coordinates.value[q] - n[ORIGIN])
-        effort = (circuit.pressure[index[NODE]] - ATMOSPHERE) * area
-        power = add_coordinate_force(machine, q, effort)
-        circuit.power[DELIVERED] += power
-        record.outputs.value[out + FORCE] += effort
-        record.outputs.value[out + POWER] += power
-    return OK
+    circuit, coordinates = record.circuit, record.coordinates
+    q, out = index[COORDINATE], index[OUTPUT]
+    _, area = swept(n, coordinates.value[q] - n[ORIGIN])
+    effort = (circuit.pressure[index[NODE]] - ATMOSPHERE) * area
+    power = add_coordinate_force(machine, q, effort)
+    circuit.power[DELIVERED] += power
+    record.outputs.value[out + FORCE] += effort
+    record.outputs.value[out + POWER] += power
 
 
 @slopes_of(displace)
-@family
-def add_slopes_of_rooms(machine, number, t):
+@element
+def add_slopes_of_rooms(machine, index, n, t):
     """Slopes of the pressures of chambers with the strokes of their pistons."""
     record = record_at(machine)
-    elements, circuit, coordinates = record.elements, record.circuit, record.coordinates
+    circuit, coordinates = record.circuit, record.coordinates
     tangent = circuit.tangent
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        q = index[COORDINATE]
-        _, area = swept(n, coordinates.value[q] - n[ORIGIN])
-        if circuit.node[index[NODE], 1] != NONE:
-            tangent.by_stroke[index[NODE], tangent.number[q]] -= softness(circuit, index[NODE]) * area
-    return OK
+    q = index[COORDINATE]
+    _, area = swept(n, coordinates.value[q] - n[ORIGIN])
+    if circuit.node[index[NODE], 1] != NONE:
+        tangent.by_stroke[index[NODE], tangent.number[q]] -= softness(circuit, index[NODE]) * area
 
 
 @slopes_of(press)
-@family
-def add_slopes_of_pressing(machine, number, t):
+@element
+def add_slopes_of_pressing(machine, index, n, t):
     """Slopes of the forces of pressures on pistons."""
     record = record_at(machine)
-    elements, circuit, coordinates = record.elements, record.circuit, record.coordinates
+    circuit, coordinates = record.circuit, record.coordinates
     tangent = circuit.tangent
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        q = index[COORDINATE]
-        _, area = swept(n, coordinates.value[q] - n[ORIGIN])
-        add_by_pressure(circuit, tangent.effort[tangent.number[q]], index[NODE], area)
-    return OK
+    q = index[COORDINATE]
+    _, area = swept(n, coordinates.value[q] - n[ORIGIN])
+    add_by_pressure(circuit, tangent.effort[tangent.number[q]], index[NODE], area)
 
 
 @slopes_of(guide)

@@ -5,9 +5,8 @@ from __future__ import annotations
 from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import slope_of_step, step
 from nivel.elements.circuits.tangent import add_by_pressure
-from nivel.kernels.core.status import OK
+from nivel.elements.rows import element
 from nivel.kernels.record.function import evaluate_function
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf, stage
 
@@ -34,20 +33,17 @@ def opening_pressure(machine, index, n, t):
 
 
 @called(Phase.POSITIONS, 0)
-@family
-def lift(machine, number, t):
+@element
+def lift(machine, index, n, t):
     """Poppets: the opening S((Σ factor p + setting + offset)/range), or a state that follows it, τ ẋ = S - x."""
     record = record_at(machine)
     elements = record.elements
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        opening = step(opening_pressure(machine, index, n, t) * (1.0 / n[RANGE]))
-        if index[STATE] != NONE:
-            own = index[STATE]
-            elements.state_rate[own] += (opening - elements.state[own]) * (1.0 / n[LAG])
-            opening = elements.state[own]
-        record.outputs.value[index[OUTPUT]] = opening
-    return OK
+    opening = step(opening_pressure(machine, index, n, t) * (1.0 / n[RANGE]))
+    if index[STATE] != NONE:
+        own = index[STATE]
+        elements.state_rate[own] += (opening - elements.state[own]) * (1.0 / n[LAG])
+        opening = elements.state[own]
+    record.outputs.value[index[OUTPUT]] = opening
 
 
 @leaf
@@ -57,20 +53,17 @@ def slope_of_poppet(machine, index, n, t):
 
 
 @slopes_of(lift)
-@family
-def add_slopes_of_poppets(machine, number, t):
+@element
+def add_slopes_of_poppets(machine, index, n, t):
     """Slopes of the positions of poppets that are states."""
     record = record_at(machine)
-    elements, circuit = record.elements, record.circuit
+    circuit = record.circuit
     tangent = circuit.tangent
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        if index[STATE] == NONE:
-            continue
-        own = tangent.unknown[index[STATE]]
-        tangent.slopes[own, own] -= 1.0 / n[LAG]
-        slope = slope_of_poppet(machine, index, n, t) / n[LAG]
-        for i in range(NODES):
-            if slope != 0.0 and index[FIRST_NODE + i] != NONE:
-                add_by_pressure(circuit, tangent.slopes[own], index[FIRST_NODE + i], slope * n[FIRST_FACTOR + i])
-    return OK
+    if index[STATE] == NONE:
+        return
+    own = tangent.unknown[index[STATE]]
+    tangent.slopes[own, own] -= 1.0 / n[LAG]
+    slope = slope_of_poppet(machine, index, n, t) / n[LAG]
+    for i in range(NODES):
+        if slope != 0.0 and index[FIRST_NODE + i] != NONE:
+            add_by_pressure(circuit, tangent.slopes[own], index[FIRST_NODE + i], slope * n[FIRST_FACTOR + i])

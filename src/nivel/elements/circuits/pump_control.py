@@ -24,11 +24,10 @@ from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.rotary import END
 from nivel.elements.circuits.smooth import slope_of_step, step
 from nivel.elements.circuits.tangent import add_by_pressure
+from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real, tanh
-from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import evaluate_function, table_value
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import Numbers
@@ -121,32 +120,29 @@ def lacking_share(machine, index, n, t, own):
 
 
 @called(Phase.POSITIONS, 4)
-@family
-def regulate(machine, number, t):
+@element
+def regulate(machine, index, n, t):
     """Settings, and the rates of their states."""
     record = record_at(machine)
     elements = record.elements
     state, rate = elements.state, elements.state_rate
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        own = index[STATE]
-        if index[SOUGHT] == NONE:
-            command, _, _ = given_command(machine, index, n, t)
+    own = index[STATE]
+    if index[SOUGHT] == NONE:
+        command, _, _ = given_command(machine, index, n, t)
+    else:
+        command = state[index[SOUGHT]]
+        g, _ = lacking_share(machine, index, n, t, command)
+        room = n[GREATEST] - command if real(g) > 0.0 else command - n[LEAST]
+        rate[index[SOUGHT]] += g / np.sqrt(1.0 + g * g) * (1.0 / n[TIME]) * step(room * (1.0 / END))
+    if own != index[SOUGHT]:
+        omega = n[FREQUENCY]
+        if index[SPEED] == NONE:
+            rate[own] += n[RATE] * tanh(omega / n[RATE] * (command - state[own]))
         else:
-            command = state[index[SOUGHT]]
-            g, _ = lacking_share(machine, index, n, t, command)
-            room = n[GREATEST] - command if real(g) > 0.0 else command - n[LEAST]
-            rate[index[SOUGHT]] += g / np.sqrt(1.0 + g * g) * (1.0 / n[TIME]) * step(room * (1.0 / END))
-        if own != index[SOUGHT]:
-            omega = n[FREQUENCY]
-            if index[SPEED] == NONE:
-                rate[own] += n[RATE] * tanh(omega / n[RATE] * (command - state[own]))
-            else:
-                speed = state[index[SPEED]]
-                rate[own] += speed
-                rate[index[SPEED]] += omega * omega * (command - state[own]) - 2.0 * n[DAMPING] * omega * speed
-        record.outputs.value[index[OUTPUT]] = state[own]
-    return OK
+            speed = state[index[SPEED]]
+            rate[own] += speed
+            rate[index[SPEED]] += omega * omega * (command - state[own]) - 2.0 * n[DAMPING] * omega * speed
+    record.outputs.value[index[OUTPUT]] = state[own]
 
 
 @leaf
@@ -197,35 +193,32 @@ def add_slopes_of_sought(machine, index, n, t):
 
 
 @slopes_of(regulate)
-@family
-def add_slopes(machine, number, t):
+@element
+def add_slopes(machine, index, n, t):
     """Slopes of all states of settings."""
     record = record_at(machine)
     elements, tangent = record.elements, record.circuit.tangent
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        if index[SOUGHT] != NONE:
-            add_slopes_of_sought(machine, index, n, t)
-        if index[STATE] == index[SOUGHT]:
-            continue
-        own, omega = tangent.unknown[index[STATE]], n[FREQUENCY]
-        if index[SPEED] == NONE:
-            share = elements.state_rate[index[STATE]] / n[RATE]
-            follows, by_command = own, omega * (1.0 - share * share)
-            tangent.slopes[own, own] -= by_command
-        else:
-            follows, by_command = tangent.unknown[index[SPEED]], omega * omega
-            tangent.slopes[own, follows] += 1.0
-            tangent.slopes[follows, own] -= by_command
-            tangent.slopes[follows, follows] -= 2.0 * n[DAMPING] * omega
-        row = tangent.slopes[follows]
-        if index[SOUGHT] != NONE:
-            row[tangent.unknown[index[SOUGHT]]] += by_command
-            continue
-        _, way, is_cut = given_command(machine, index, n, t)
-        if is_cut:
-            add_share_by_pressure(machine, index, n, t, way, row, way * by_command)
-    return OK
+    if index[SOUGHT] != NONE:
+        add_slopes_of_sought(machine, index, n, t)
+    if index[STATE] == index[SOUGHT]:
+        return
+    own, omega = tangent.unknown[index[STATE]], n[FREQUENCY]
+    if index[SPEED] == NONE:
+        share = elements.state_rate[index[STATE]] / n[RATE]
+        follows, by_command = own, omega * (1.0 - share * share)
+        tangent.slopes[own, own] -= by_command
+    else:
+        follows, by_command = tangent.unknown[index[SPEED]], omega * omega
+        tangent.slopes[own, follows] += 1.0
+        tangent.slopes[follows, own] -= by_command
+        tangent.slopes[follows, follows] -= 2.0 * n[DAMPING] * omega
+    row = tangent.slopes[follows]
+    if index[SOUGHT] != NONE:
+        row[tangent.unknown[index[SOUGHT]]] += by_command
+        return
+    _, way, is_cut = given_command(machine, index, n, t)
+    if is_cut:
+        add_share_by_pressure(machine, index, n, t, way, row, way * by_command)
 
 
 WITHOUT_CUT_OFF = 1e12  # Pa

@@ -19,10 +19,9 @@ from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.poppets import FIRST_FACTOR, FIRST_NODE, NODES, slope_of_poppet
 from nivel.elements.circuits.smooth import clipped, magnitude_within, ramp, root_flow, slope_of_step, step
 from nivel.elements.circuits.tangent import add_flow_by_column, add_flow_by_pressure
+from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
-from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import evaluate_function
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf, stage
 
@@ -61,25 +60,21 @@ def opening_of(machine, index, n, t):
 
 
 @called(Phase.FLOWS, 2)
-@family
-def restrict(machine, number, t):
+@element
+def restrict(machine, index, n, t):
     """Flows of all restrictions."""
     record = record_at(machine)
-    elements, circuit = record.elements, record.circuit
+    circuit = record.circuit
     secant = circuit.secant[0]
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b = index[FROM], index[TO]
-        difference = circuit.pressure[a] - circuit.pressure[b]
-        opening = opening_of(machine, index, n, t)
-        flow = (
-            n[FLOW] * opening * root_flow(difference, n[CORNER], secant)
-            + n[LEAK] / thickness(circuit, a, b) * difference
-        )
-        mass_flow = 0.5 * (circuit.density[a] + circuit.density[b]) * flow
-        lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
-        record.outputs.value[index[OUTPUT]] = flow
-    return OK
+    a, b = index[FROM], index[TO]
+    difference = circuit.pressure[a] - circuit.pressure[b]
+    opening = opening_of(machine, index, n, t)
+    flow = (
+        n[FLOW] * opening * root_flow(difference, n[CORNER], secant) + n[LEAK] / thickness(circuit, a, b) * difference
+    )
+    mass_flow = 0.5 * (circuit.density[a] + circuit.density[b]) * flow
+    lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
+    record.outputs.value[index[OUTPUT]] = flow
 
 
 @leaf
@@ -97,36 +92,33 @@ def slope_of_opening(index, n, u):
 
 
 @slopes_of(restrict)
-@family
-def add_slopes(machine, number, t):
+@element
+def add_slopes(machine, index, n, t):
     """Slopes of all flows, those with pressures as secants."""
     record = record_at(machine)
     elements, circuit, value = record.elements, record.circuit, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b, kind = index[FROM], index[TO], index[KIND]
-        difference = circuit.pressure[a] - circuit.pressure[b]
-        density = 0.5 * (circuit.density[a] + circuit.density[b])
-        through = n[FLOW] / np.sqrt(np.sqrt(difference * difference + n[CORNER] * n[CORNER]))
-        conductance = density * (through * opening_of(machine, index, n, t) + n[LEAK] / thickness(circuit, a, b))
-        if conductance != 0.0:
-            add_flow_by_pressure(circuit, a, b, a, conductance)
-            add_flow_by_pressure(circuit, a, b, b, -conductance)
-        if kind in (FIXED, GIVEN, CUSHION):
-            continue
-        slope = density * through * difference * slope_of_opening(index, n, value[index[POSITION]])
-        if slope == 0.0:
-            continue
-        state, poppet = circuit.tangent.source[index[POSITION], 0], circuit.tangent.source[index[POSITION], 1]
-        if state != NONE:
-            add_flow_by_column(circuit, a, b, state, slope)
-        elif poppet != NONE:
-            valve, factors = elements.columns[poppet], elements.number[poppet]
-            slope *= slope_of_poppet(machine, valve, factors, t)
-            for i in range(NODES):
-                if slope != 0.0 and valve[FIRST_NODE + i] != NONE:
-                    add_flow_by_pressure(circuit, a, b, valve[FIRST_NODE + i], slope * factors[FIRST_FACTOR + i])
-    return OK
+    a, b, kind = index[FROM], index[TO], index[KIND]
+    difference = circuit.pressure[a] - circuit.pressure[b]
+    density = 0.5 * (circuit.density[a] + circuit.density[b])
+    through = n[FLOW] / np.sqrt(np.sqrt(difference * difference + n[CORNER] * n[CORNER]))
+    conductance = density * (through * opening_of(machine, index, n, t) + n[LEAK] / thickness(circuit, a, b))
+    if conductance != 0.0:
+        add_flow_by_pressure(circuit, a, b, a, conductance)
+        add_flow_by_pressure(circuit, a, b, b, -conductance)
+    if kind in (FIXED, GIVEN, CUSHION):
+        return
+    slope = density * through * difference * slope_of_opening(index, n, value[index[POSITION]])
+    if slope == 0.0:
+        return
+    state, poppet = circuit.tangent.source[index[POSITION], 0], circuit.tangent.source[index[POSITION], 1]
+    if state != NONE:
+        add_flow_by_column(circuit, a, b, state, slope)
+    elif poppet != NONE:
+        valve, factors = elements.columns[poppet], elements.number[poppet]
+        slope *= slope_of_poppet(machine, valve, factors, t)
+        for i in range(NODES):
+            if slope != 0.0 and valve[FIRST_NODE + i] != NONE:
+                add_flow_by_pressure(circuit, a, b, valve[FIRST_NODE + i], slope * factors[FIRST_FACTOR + i])
 
 
 # The columns are those of `nivel.elements.circuits.restrictions`; in `number` C [m³/s/Pa] and b stand first. Output: flow at the reference
@@ -171,26 +163,23 @@ def carry_heat(machine, a, b, flow):
 
 
 @called(Phase.FLOWS, 0)
-@family
-def restrict_gas(machine, number, t):
+@element
+def restrict_gas(machine, index, n, t):
     """Flows of gas through all restrictions."""
     record = record_at(machine)
-    elements, circuit = record.elements, record.circuit
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b = index[FROM], index[TO]
-        f = circuit.fluid[circuit.node[a, 0]]
-        backward = real(circuit.pressure[b]) > real(circuit.pressure[a])
-        up, down = (b, a) if backward else (a, b)
-        reduced = reduced_flow(n, circuit.pressure[up], circuit.pressure[down], circuit.secant[0])
-        flow = n[SONIC] * opening_of(machine, index, n, t) * f[REFERENCE] * reduced
-        flow = flow / np.sqrt(circuit.temperature[up])
-        flow += n[LEAK_OF_GAS] * circuit.density[up] * (circuit.pressure[up] - circuit.pressure[down])
-        if backward:
-            flow = -flow
-        lose(machine, transfer(machine, a, b, flow) - carry_heat(machine, a, b, flow))
-        record.outputs.value[index[OUTPUT]] = flow * REFERENCE_ROOT / f[REFERENCE]
-    return OK
+    circuit = record.circuit
+    a, b = index[FROM], index[TO]
+    f = circuit.fluid[circuit.node[a, 0]]
+    backward = real(circuit.pressure[b]) > real(circuit.pressure[a])
+    up, down = (b, a) if backward else (a, b)
+    reduced = reduced_flow(n, circuit.pressure[up], circuit.pressure[down], circuit.secant[0])
+    flow = n[SONIC] * opening_of(machine, index, n, t) * f[REFERENCE] * reduced
+    flow = flow / np.sqrt(circuit.temperature[up])
+    flow += n[LEAK_OF_GAS] * circuit.density[up] * (circuit.pressure[up] - circuit.pressure[down])
+    if backward:
+        flow = -flow
+    lose(machine, transfer(machine, a, b, flow) - carry_heat(machine, a, b, flow))
+    record.outputs.value[index[OUTPUT]] = flow * REFERENCE_ROOT / f[REFERENCE]
 
 
 TRANSITION = 0.5e5  # Pa, of restrictions that do not say

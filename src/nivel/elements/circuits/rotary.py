@@ -25,11 +25,10 @@ from nivel.elements.circuits.ledger import DELIVERED, SUPPLIED, lose_between, tr
 from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import clipped, magnitude_within, sign_within, slope_of_step, step
 from nivel.elements.circuits.tangent import add_by_pressure, add_flow_by_column, add_flow_by_pressure
+from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
-from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import evaluate_function
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Displacement, Frequency, Leakage, PositiveNumber, Pressure, Share
@@ -140,30 +139,27 @@ END = 0.05
 
 
 @called(Phase.POSITIONS, 3)
-@family
-def set_displacement(machine, number, t):
+@element
+def set_displacement(machine, index, n, t):
     """Share ε of the displacement: a function, or a state that holds a margin above the sensed pressure,
 
     ε̇ = g/√(1 + g²)/T, g = (p_LS + margin - p_P)/range, or (p_max - p_P)/range where that is less.
     """
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        if index[STATE] == NONE:
-            record.outputs.value[index[OUTPUT]] = clipped(evaluate_function(machine, index[FUNCTION], t), -1.0)
-            continue
-        own = elements.state[index[STATE]]
-        lacking = circuit.pressure[index[SENSED]] + n[MARGIN] - circuit.pressure[index[HIGH]]
-        spare = n[CUT_OFF] - circuit.pressure[index[HIGH]]
-        if real(spare) < real(lacking):
-            lacking = spare
-        g = lacking / n[RANGE]
-        rate = g / np.sqrt(1.0 + g * g) / n[TIME]
-        room = 1.0 - own if real(g) > 0.0 else own
-        elements.state_rate[index[STATE]] += rate * step(room / END)
-        record.outputs.value[index[OUTPUT]] = own
-    return OK
+    if index[STATE] == NONE:
+        record.outputs.value[index[OUTPUT]] = clipped(evaluate_function(machine, index[FUNCTION], t), -1.0)
+        return
+    own = elements.state[index[STATE]]
+    lacking = circuit.pressure[index[SENSED]] + n[MARGIN] - circuit.pressure[index[HIGH]]
+    spare = n[CUT_OFF] - circuit.pressure[index[HIGH]]
+    if real(spare) < real(lacking):
+        lacking = spare
+    g = lacking / n[RANGE]
+    rate = g / np.sqrt(1.0 + g * g) / n[TIME]
+    room = 1.0 - own if real(g) > 0.0 else own
+    elements.state_rate[index[STATE]] += rate * step(room / END)
+    record.outputs.value[index[OUTPUT]] = own
 
 
 @stage
@@ -178,112 +174,100 @@ def turning(machine, index, n, t):
 
 
 @called(Phase.FLOWS, 5)
-@family
-def turn(machine, number, t):
+@element
+def turn(machine, index, n, t):
     """Flows and torques of pumps and motors."""
     record = record_at(machine)
-    elements, circuit, value = record.elements, record.circuit, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b, out = index[FROM], index[TO], index[OUTPUT]
-        omega, angle = turning(machine, index, n, t)
-        swept = n[DISPLACEMENT] * value[out + SETTING] * (1.0 + n[RIPPLE] * np.cos(n[PERIODS] * angle))
-        displaced = swept * omega
-        mean = 0.5 * (circuit.density[a] + circuit.density[b])
-        taken = sign_within(omega * value[out + SETTING], SLOW)
-        density = mean + 0.5 * (circuit.density[a] - circuit.density[b]) * taken
-        difference = circuit.pressure[b] - circuit.pressure[a]
-        leak = n[LEAK] / thickness(circuit, a, b) * difference
-        flow = density * displaced - mean * leak
-        torque = swept * difference + n[VISCOUS] * omega
-        dry = n[DRY] * n[DISPLACEMENT] * magnitude_within(difference, SMALL)
-        torque += dry * sign_within(omega, SLOW)
-        power = torque * omega
-        lose_between(machine, a, b, flow, power + transfer(machine, a, b, flow))
-        if index[SPEED] == NONE:
-            add_coordinate_force(machine, index[COORDINATE], -n[RATIO] * torque)
-            circuit.power[DELIVERED] -= power
-        else:
-            record.control.power[0] += power
-            circuit.power[SUPPLIED] += power
-        value[out + FLOW], value[out + TORQUE], value[out + POWER] = displaced - leak, torque, power
-    return OK
+    circuit, value = record.circuit, record.outputs.value
+    a, b, out = index[FROM], index[TO], index[OUTPUT]
+    omega, angle = turning(machine, index, n, t)
+    swept = n[DISPLACEMENT] * value[out + SETTING] * (1.0 + n[RIPPLE] * np.cos(n[PERIODS] * angle))
+    displaced = swept * omega
+    mean = 0.5 * (circuit.density[a] + circuit.density[b])
+    taken = sign_within(omega * value[out + SETTING], SLOW)
+    density = mean + 0.5 * (circuit.density[a] - circuit.density[b]) * taken
+    difference = circuit.pressure[b] - circuit.pressure[a]
+    leak = n[LEAK] / thickness(circuit, a, b) * difference
+    flow = density * displaced - mean * leak
+    torque = swept * difference + n[VISCOUS] * omega
+    dry = n[DRY] * n[DISPLACEMENT] * magnitude_within(difference, SMALL)
+    torque += dry * sign_within(omega, SLOW)
+    power = torque * omega
+    lose_between(machine, a, b, flow, power + transfer(machine, a, b, flow))
+    if index[SPEED] == NONE:
+        add_coordinate_force(machine, index[COORDINATE], -n[RATIO] * torque)
+        circuit.power[DELIVERED] -= power
+    else:
+        record.control.power[0] += power
+        circuit.power[SUPPLIED] += power
+    value[out + FLOW], value[out + TORQUE], value[out + POWER] = displaced - leak, torque, power
 
 
 @called(Phase.FLOWS, 7, slow=True)
-@family
-def supply(machine, number, t):
+@element
+def supply(machine, index, n, t):
     """Sources of flow: ideal pumps; SPEED is the flow. Outputs: flow, power."""
     record = record_at(machine)
-    elements, circuit, value = record.elements, record.circuit, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index = elements.columns[k]
-        a, b = index[FROM], index[TO]
-        flow = evaluate_function(machine, index[SPEED], t)
-        density = circuit.density[a] if real(flow) > 0.0 else circuit.density[b]
-        power = -transfer(machine, a, b, density * flow)
-        record.control.power[0] += power
-        circuit.power[SUPPLIED] += power
-        value[index[OUTPUT]], value[index[OUTPUT] + 1] = flow, power
-    return OK
+    circuit, value = record.circuit, record.outputs.value
+    a, b = index[FROM], index[TO]
+    flow = evaluate_function(machine, index[SPEED], t)
+    density = circuit.density[a] if real(flow) > 0.0 else circuit.density[b]
+    power = -transfer(machine, a, b, density * flow)
+    record.control.power[0] += power
+    circuit.power[SUPPLIED] += power
+    value[index[OUTPUT]], value[index[OUTPUT] + 1] = flow, power
 
 
 @slopes_of(set_displacement)
-@family
-def add_slopes_of_settings(machine, number, t):
+@element
+def add_slopes_of_settings(machine, index, n, t):
     """Slopes of the displacements that are states."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
     tangent = circuit.tangent
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        if index[STATE] == NONE:
-            continue
-        own, unknown = elements.state[index[STATE]], tangent.unknown[index[STATE]]
-        lacking = circuit.pressure[index[SENSED]] + n[MARGIN] - circuit.pressure[index[HIGH]]
-        spare = n[CUT_OFF] - circuit.pressure[index[HIGH]]
-        g = min(lacking, spare) / n[RANGE]
-        root = np.sqrt(1.0 + g * g)
-        room, sign = (1.0 - own, -1.0) if g > 0.0 else (own, 1.0)
-        row = tangent.slopes[unknown]
-        row[unknown] += g / root / n[TIME] * slope_of_step(room / END) * sign / END
-        slope = step(room / END) / (root * root * root * n[TIME] * n[RANGE])
-        add_by_pressure(circuit, row, index[HIGH], -slope)
-        if lacking <= spare:
-            add_by_pressure(circuit, row, index[SENSED], slope)
-    return OK
+    if index[STATE] == NONE:
+        return
+    own, unknown = elements.state[index[STATE]], tangent.unknown[index[STATE]]
+    lacking = circuit.pressure[index[SENSED]] + n[MARGIN] - circuit.pressure[index[HIGH]]
+    spare = n[CUT_OFF] - circuit.pressure[index[HIGH]]
+    g = min(lacking, spare) / n[RANGE]
+    root = np.sqrt(1.0 + g * g)
+    room, sign = (1.0 - own, -1.0) if g > 0.0 else (own, 1.0)
+    row = tangent.slopes[unknown]
+    row[unknown] += g / root / n[TIME] * slope_of_step(room / END) * sign / END
+    slope = step(room / END) / (root * root * root * n[TIME] * n[RANGE])
+    add_by_pressure(circuit, row, index[HIGH], -slope)
+    if lacking <= spare:
+        add_by_pressure(circuit, row, index[SENSED], slope)
 
 
 @slopes_of(turn)
-@family
-def add_slopes(machine, number, t):
+@element
+def add_slopes(machine, index, n, t):
     """Slopes of the flows and torques of pumps and motors."""
     record = record_at(machine)
-    elements, circuit, value = record.elements, record.circuit, record.outputs.value
+    circuit, value = record.circuit, record.outputs.value
     tangent = circuit.tangent
     states, coordinates = tangent.state.shape[0], tangent.coordinate.shape[0]
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b, setting = index[FROM], index[TO], index[OUTPUT] + SETTING
-        omega, angle = turning(machine, index, n, t)
-        full = n[DISPLACEMENT] * (1.0 + n[RIPPLE] * np.cos(n[PERIODS] * angle))
-        swept = full * value[setting]
-        mean = 0.5 * (circuit.density[a] + circuit.density[b])
-        taken = sign_within(omega * value[setting], SLOW)
-        density = mean + 0.5 * (circuit.density[a] - circuit.density[b]) * taken
-        leak = mean * n[LEAK] / thickness(circuit, a, b)
-        add_flow_by_pressure(circuit, a, b, a, leak)
-        add_flow_by_pressure(circuit, a, b, b, -leak)
-        if tangent.source[setting, 0] != NONE:
-            add_flow_by_column(circuit, a, b, tangent.source[setting, 0], density * full * omega)
-        if index[SPEED] != NONE:
-            continue
-        c, ratio = np.int64(tangent.number[index[COORDINATE]]), n[RATIO]
-        rate, row = states + coordinates + c, tangent.effort[c]
-        add_flow_by_column(circuit, a, b, rate, density * swept * ratio)
-        difference = circuit.pressure[b] - circuit.pressure[a]
-        dry = n[DRY] * n[DISPLACEMENT] * magnitude_within(difference, SMALL)
-        row[rate] -= ratio * ratio * (n[VISCOUS] + dry * SLOW * SLOW / (omega * omega + SLOW * SLOW) ** 1.5)
-        add_by_pressure(circuit, row, b, -ratio * swept)
-        add_by_pressure(circuit, row, a, ratio * swept)
-    return OK
+    a, b, setting = index[FROM], index[TO], index[OUTPUT] + SETTING
+    omega, angle = turning(machine, index, n, t)
+    full = n[DISPLACEMENT] * (1.0 + n[RIPPLE] * np.cos(n[PERIODS] * angle))
+    swept = full * value[setting]
+    mean = 0.5 * (circuit.density[a] + circuit.density[b])
+    taken = sign_within(omega * value[setting], SLOW)
+    density = mean + 0.5 * (circuit.density[a] - circuit.density[b]) * taken
+    leak = mean * n[LEAK] / thickness(circuit, a, b)
+    add_flow_by_pressure(circuit, a, b, a, leak)
+    add_flow_by_pressure(circuit, a, b, b, -leak)
+    if tangent.source[setting, 0] != NONE:
+        add_flow_by_column(circuit, a, b, tangent.source[setting, 0], density * full * omega)
+    if index[SPEED] != NONE:
+        return
+    c, ratio = np.int64(tangent.number[index[COORDINATE]]), n[RATIO]
+    rate, row = states + coordinates + c, tangent.effort[c]
+    add_flow_by_column(circuit, a, b, rate, density * swept * ratio)
+    difference = circuit.pressure[b] - circuit.pressure[a]
+    dry = n[DRY] * n[DISPLACEMENT] * magnitude_within(difference, SMALL)
+    row[rate] -= ratio * ratio * (n[VISCOUS] + dry * SLOW * SLOW / (omega * omega + SLOW * SLOW) ** 1.5)
+    add_by_pressure(circuit, row, b, -ratio * swept)
+    add_by_pressure(circuit, row, a, ratio * swept)

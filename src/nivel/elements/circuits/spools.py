@@ -27,11 +27,10 @@ import numpy as np
 from nivel.elements.circuits.curves import CurveOf, SomeCurve
 from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import clipped, magnitude_within, sign_within, step
+from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real, tanh
-from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import evaluate_function, table_value
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.machine.core.checked import Checked
 from nivel.machine.core.coefficient import Frequency, NotNegativeDuration, NotNegativeForce, PositiveNumber, Truth
@@ -130,106 +129,94 @@ def force_of(functions, curve, current, least):
 
 
 @called(Phase.POSITIONS, 5)
-@family
-def drive(machine, number, t):
+@element
+def drive(machine, index, n, t):
     """Inputs and positions of proportional spools."""
     record = record_at(machine)
     elements, rate = record.elements, record.elements.state_rate
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        wish = evaluate_function(machine, index[COMMAND], t)
-        wish = (
-            clipped(wish, n[LEAST])
-            if index[CURVE] == NONE
-            else force_of(record.functions, index[CURVE], wish, real(n[LEAST]))
-        )
-        if real(n[DITHER]) != 0.0:
-            wish = wish + n[DITHER] * np.sin(n[DITHER_FREQUENCY] * t)
-        if index[PLAY] != NONE:
-            held = elements.state[index[PLAY]]
-            rate[index[PLAY]] += beyond(wish - held, 0.5 * n[PLAY_WIDTH]) * (1.0 / PLAY_TIME)
-            wish = held
-        wish = without_dead_band(wish, n[DEAD])
-        if index[STATE] == NONE:
-            record.outputs.value[index[OUTPUT]] = wish
-            continue
-        u, v = elements.state[index[STATE]], elements.state[index[SPEED]]
-        rate[index[STATE]] += v
-        rate[index[SPEED]] += balance(n, u, v, wish)
-        record.outputs.value[index[OUTPUT]] = u
-    return OK
+    wish = evaluate_function(machine, index[COMMAND], t)
+    wish = (
+        clipped(wish, n[LEAST])
+        if index[CURVE] == NONE
+        else force_of(record.functions, index[CURVE], wish, real(n[LEAST]))
+    )
+    if real(n[DITHER]) != 0.0:
+        wish = wish + n[DITHER] * np.sin(n[DITHER_FREQUENCY] * t)
+    if index[PLAY] != NONE:
+        held = elements.state[index[PLAY]]
+        rate[index[PLAY]] += beyond(wish - held, 0.5 * n[PLAY_WIDTH]) * (1.0 / PLAY_TIME)
+        wish = held
+    wish = without_dead_band(wish, n[DEAD])
+    if index[STATE] == NONE:
+        record.outputs.value[index[OUTPUT]] = wish
+        return
+    u, v = elements.state[index[STATE]], elements.state[index[SPEED]]
+    rate[index[STATE]] += v
+    rate[index[SPEED]] += balance(n, u, v, wish)
+    record.outputs.value[index[OUTPUT]] = u
 
 
 @called(Phase.POSITIONS, 2)
-@family
-def switch(machine, number, t):
+@element
+def switch(machine, index, n, t):
     """Energies and positions of valves that switch."""
     record = record_at(machine)
     elements = record.elements
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        command = clipped(evaluate_function(machine, index[COMMAND], t), n[LEAST])
-        goal = 0.0
-        if real(command) > 0.5:
-            goal = 1.0
-        elif real(command) < -0.5:
-            goal = -1.0
-        e = elements.state[index[STATE]]
-        growing = goal != 0.0 and goal * real(e) >= 0.0
-        pace = n[UP] if growing else n[DOWN]
-        elements.state_rate[index[STATE]] += pace * tanh((goal - e) * (1.0 / ROUNDED))
-        size = magnitude_within(e, 1e-9)
-        opening = step((size - n[BEGIN]) * (1.0 / (n[END] - n[BEGIN])))
-        record.outputs.value[index[OUTPUT]] = opening if real(e) >= 0.0 else -opening
-    return OK
+    command = clipped(evaluate_function(machine, index[COMMAND], t), n[LEAST])
+    goal = 0.0
+    if real(command) > 0.5:
+        goal = 1.0
+    elif real(command) < -0.5:
+        goal = -1.0
+    e = elements.state[index[STATE]]
+    growing = goal != 0.0 and goal * real(e) >= 0.0
+    pace = n[UP] if growing else n[DOWN]
+    elements.state_rate[index[STATE]] += pace * tanh((goal - e) * (1.0 / ROUNDED))
+    size = magnitude_within(e, 1e-9)
+    opening = step((size - n[BEGIN]) * (1.0 / (n[END] - n[BEGIN])))
+    record.outputs.value[index[OUTPUT]] = opening if real(e) >= 0.0 else -opening
 
 
 @slopes_of(drive)
-@family
-def add_slopes(machine, number, t):
+@element
+def add_slopes(machine, index, n, t):
     """Slopes of the inputs, positions and speeds of spools, for commands that do not depend on the state."""
     record = record_at(machine)
     elements, tangent = record.elements, record.circuit.tangent
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        moved = index[PLAY] != NONE and elements.state_rate[index[PLAY]] != 0.0
-        if moved:
-            play = tangent.unknown[index[PLAY]]
-            tangent.slopes[play, play] -= 1.0 / PLAY_TIME
-        if index[STATE] == NONE:
-            continue
-        own, speed, omega = tangent.unknown[index[STATE]], tangent.unknown[index[SPEED]], n[FREQUENCY]
-        u, v = elements.state[index[STATE]], elements.state[index[SPEED]]
-        size, turning = magnitude_within(u, CENTRE), tanh(v / n[SLOW])
-        stiffness = 1.0 + n[PRELOAD] * CENTRE * CENTRE / (size * size * size)
-        loss = 2.0 * n[DAMPING] * omega + omega * omega * n[FRICTION] * (1.0 - turning * turning) / n[SLOW]
-        if np.abs(u) > 1.0:
-            stiffness += STOP
-            loss += 2.0 * np.sqrt(STOP) * omega
-        tangent.slopes[own, speed] += 1.0
-        tangent.slopes[speed, own] -= omega * omega * stiffness
-        tangent.slopes[speed, speed] -= loss
-        if index[PLAY] != NONE and np.abs(elements.state[index[PLAY]]) > n[DEAD]:
-            play = tangent.unknown[index[PLAY]]
-            tangent.slopes[speed, play] += omega * omega / (1.0 - n[DEAD])
-    return OK
+    moved = index[PLAY] != NONE and elements.state_rate[index[PLAY]] != 0.0
+    if moved:
+        play = tangent.unknown[index[PLAY]]
+        tangent.slopes[play, play] -= 1.0 / PLAY_TIME
+    if index[STATE] == NONE:
+        return
+    own, speed, omega = tangent.unknown[index[STATE]], tangent.unknown[index[SPEED]], n[FREQUENCY]
+    u, v = elements.state[index[STATE]], elements.state[index[SPEED]]
+    size, turning = magnitude_within(u, CENTRE), tanh(v / n[SLOW])
+    stiffness = 1.0 + n[PRELOAD] * CENTRE * CENTRE / (size * size * size)
+    loss = 2.0 * n[DAMPING] * omega + omega * omega * n[FRICTION] * (1.0 - turning * turning) / n[SLOW]
+    if np.abs(u) > 1.0:
+        stiffness += STOP
+        loss += 2.0 * np.sqrt(STOP) * omega
+    tangent.slopes[own, speed] += 1.0
+    tangent.slopes[speed, own] -= omega * omega * stiffness
+    tangent.slopes[speed, speed] -= loss
+    if index[PLAY] != NONE and np.abs(elements.state[index[PLAY]]) > n[DEAD]:
+        play = tangent.unknown[index[PLAY]]
+        tangent.slopes[speed, play] += omega * omega / (1.0 - n[DEAD])
 
 
 @slopes_of(switch)
-@family
-def add_slopes_of_switches(machine, number, t):
+@element
+def add_slopes_of_switches(machine, index, n, t):
     """Slopes of the energies of valves that switch."""
     record = record_at(machine)
     elements, tangent = record.elements, record.circuit.tangent
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        rate = elements.state_rate[index[STATE]]
-        pace = max(n[UP], n[DOWN])
-        share = min(np.abs(rate) / pace, 1.0)
-        tangent.slopes[tangent.unknown[index[STATE]], tangent.unknown[index[STATE]]] -= (
-            pace * (1.0 - share * share) / ROUNDED
-        )
-    return OK
+    rate = elements.state_rate[index[STATE]]
+    pace = max(n[UP], n[DOWN])
+    share = min(np.abs(rate) / pace, 1.0)
+    tangent.slopes[tangent.unknown[index[STATE]], tangent.unknown[index[STATE]]] -= (
+        pace * (1.0 - share * share) / ROUNDED
+    )
 
 
 SLOW_START = 1e-3  # [s] the least time in which a valve that switches moves

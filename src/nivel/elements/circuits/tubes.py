@@ -27,9 +27,8 @@ from nivel.elements.circuits.pipe_losses import CRITICAL_REYNOLDS
 from nivel.elements.circuits.restrictions import REFERENCE_ROOT, carry_heat
 from nivel.elements.circuits.smooth import magnitude_within
 from nivel.elements.circuits.symbol import pipe
+from nivel.elements.rows import element
 from nivel.elements.states import StateFact
-from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import HeatTransfer, NotNegativeNumber, Pressure
@@ -89,31 +88,28 @@ ROUNDED = 1e-3  # of ṁ_c, within which |ṁ| is rounded
 
 
 @called(Phase.FLOWS, 8)
-@family
-def flow_in_tubes(machine, number, t):
+@element
+def flow_in_tubes(machine, index, n, t):
     """Rates of the flows of tubes."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        a, b = index[FROM], index[TO]
-        specific = 2.0 / (circuit.density[a] + circuit.density[b])
-        mass_flow = elements.state[index[STATE]]
-        ratio = mass_flow * (1.0 / n[CRITICAL])
-        square = ratio * ratio
-        turbulent = np.sqrt(np.sqrt(np.sqrt(1.0 + square * square * square)))
-        loss = n[RESISTANCE] * mass_flow * specific * turbulent
-        loss += n[BENDS] * mass_flow * specific * magnitude_within(mass_flow, ROUNDED * n[CRITICAL])
-        driving = circuit.pressure[a] - circuit.pressure[b] - loss
-        elements.state_rate[index[STATE]] += n[SLENDER] * driving
-        stored = 0.5 * mass_flow * mass_flow / (n[SLENDER] * n[KINETIC_DENSITY])
-        circuit.stored[0] += stored
-        record.control.stored[0] += stored
-        given = transfer(machine, a, b, mass_flow) - carry_heat(machine, a, b, mass_flow)
-        lose(machine, given - mass_flow * driving / n[KINETIC_DENSITY])
-        f = circuit.fluid[circuit.node[a, 0]]
-        record.outputs.value[index[OUTPUT]] = mass_flow * REFERENCE_ROOT / f[REFERENCE]
-    return OK
+    a, b = index[FROM], index[TO]
+    specific = 2.0 / (circuit.density[a] + circuit.density[b])
+    mass_flow = elements.state[index[STATE]]
+    ratio = mass_flow * (1.0 / n[CRITICAL])
+    square = ratio * ratio
+    turbulent = np.sqrt(np.sqrt(np.sqrt(1.0 + square * square * square)))
+    loss = n[RESISTANCE] * mass_flow * specific * turbulent
+    loss += n[BENDS] * mass_flow * specific * magnitude_within(mass_flow, ROUNDED * n[CRITICAL])
+    driving = circuit.pressure[a] - circuit.pressure[b] - loss
+    elements.state_rate[index[STATE]] += n[SLENDER] * driving
+    stored = 0.5 * mass_flow * mass_flow / (n[SLENDER] * n[KINETIC_DENSITY])
+    circuit.stored[0] += stored
+    record.control.stored[0] += stored
+    given = transfer(machine, a, b, mass_flow) - carry_heat(machine, a, b, mass_flow)
+    lose(machine, given - mass_flow * driving / n[KINETIC_DENSITY])
+    f = circuit.fluid[circuit.node[a, 0]]
+    record.outputs.value[index[OUTPUT]] = mass_flow * REFERENCE_ROOT / f[REFERENCE]
 
 
 def tube_nodes(builder: SystemBuilder, component: Tube, swept: Swept) -> Iterator[Node]:

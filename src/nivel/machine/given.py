@@ -9,10 +9,11 @@ such an annotation is the first of the three types, by which pydantic reads the 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Generic, TypeVar, dataclass_transform
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, dataclass_transform, get_args
 
 import pydantic
 from pydantic import BaseModel
+from pydantic.fields import FieldInfo
 
 from nivel.lazy import dataclass
 
@@ -41,6 +42,14 @@ class Shown:
 
     def __call__(self, schema: dict[str, Any]) -> None:
         """Nothing of this stands in the schema."""
+
+
+def usual_of(field: FieldInfo) -> Usual | None:
+    """What is usual of a field: told of itself, or of its type."""
+    its, told = field.json_schema_extra, [*field.metadata]
+    for kind in get_args(field.annotation):  # of what may be absent
+        told += getattr(kind, "__metadata__", ())
+    return getattr(its, "usual", None) or next((each for each in told if isinstance(each, Usual)), None)
 
 
 if TYPE_CHECKING:

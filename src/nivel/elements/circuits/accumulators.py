@@ -27,7 +27,7 @@ from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.kernels.record.record import record_at
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Exponent, NotNegativePressure, Pressure, Temperature, VolumeFlow
+from nivel.machine.core.coefficient import Exponent
 from nivel.machine.core.coefficient import Volume as VolumeSize
 from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, Maybe
@@ -51,8 +51,8 @@ class Accumulator(Component):
     late: ClassVar[tuple[str, ...]] = ("flow", "temperature")
 
     type: Literal["accumulator"] = "accumulator"
-    volume: VolumeSize = Field(description="of the gas at its precharge", usual=ranges.VOLUME)
-    precharge: Pressure = Field(description="pressure of the gas without oil, absolute", usual=ranges.PRESSURE)
+    volume: ranges.Size = Field(description="of the gas at its precharge")
+    precharge: ranges.Level = Field(description="pressure of the gas without oil, absolute")
     gas_exponent: Maybe[Exponent] = Field(
         default=None,
         description="polytropic exponent of the gas, default 1.3; with a `thermal_time` the adiabatic one, default 1.4",
@@ -60,24 +60,20 @@ class Accumulator(Component):
     thermal_time: Maybe[Duration] = Field(
         default=None, description="time constant with which the gas takes the temperature of its surroundings"
     )
-    temperature: Temperature = Field(
-        default=ROOM, description="of the surroundings, with a `thermal_time`", usual=ranges.TEMPERATURE
-    )
+    temperature: ranges.Warmth = Field(default=ROOM, description="of the surroundings, with a `thermal_time`")
     gas: Literal["ideal", "nitrogen"] = Field(
         default="ideal", description="with a `thermal_time` also `nitrogen` by its own equation of state"
     )
-    piston_friction: NotNegativePressure = Field(
-        default=0.0,
-        description="difference of pressure that moves the piston between oil and gas",
-        usual=ranges.DIFFERENCE,
+    piston_friction: ranges.LeastDrop = Field(
+        default=0.0, description="difference of pressure that moves the piston between oil and gas"
     )
     dead_volume: Maybe[VolumeSize] = Field(
         default=None, description="of oil when it is empty; default 2 % of the volume"
     )
-    flow: VolumeFlow = Field(description="through the inlet at `pressure_drop`", usual=ranges.FLOW)
-    pressure_drop: Pressure = Field(description="at which `flow` is measured", usual=ranges.DIFFERENCE)
-    start: Maybe[Pressure] = Field(
-        default=None, description="pressure at the start; default: that of a steady circuit", usual=ranges.PRESSURE
+    flow: ranges.Flow = Field(description="through the inlet at `pressure_drop`")
+    pressure_drop: ranges.Drop = Field(description="at which `flow` is measured")
+    start: Maybe[ranges.Level] = Field(
+        default=None, description="pressure at the start; default: that of a steady circuit"
     )
     fluid: Name | None = Field(default=None, description="default: the only one")
 
@@ -222,14 +218,7 @@ def _add_gas(builder: SystemBuilder, component: Accumulator, time: float) -> Non
     builder.elements.add(warm_nitrogen if real else exchange_heat, columns, numbers)
 
 
-OF_ACCUMULATORS = (
-    restrict,
-    charge,
-    exchange_heat,
-    charge_nitrogen,
-    warm_nitrogen,
-    rub,
-)
+OF_ACCUMULATORS = (restrict, charge, exchange_heat, charge_nitrogen, warm_nitrogen, rub)
 
 
 def accumulator(data: Mapping[str, Any]) -> Symbol:

@@ -19,7 +19,7 @@ from nivel.elements.circuits.restrictions import CUSHION, TRANSITION, add_flow, 
 from nivel.elements.circuits.symbol import Symbol, path
 from nivel.machine.core.between import Ends
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Displacement, HeatTransfer, Leakage, Share, Volume
+from nivel.machine.core.coefficient import Displacement, Leakage, Share, Volume
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord, Usual
 from nivel.machine.units.quantity import Angle, PositiveLength, Quantity, listed
 from nivel.machine.uses.coordinate_reference import CoordinateReference
@@ -53,17 +53,14 @@ class HydraulicCylinder(Ends, Actuator):
     type: Literal["cylinder"] = "cylinder"
     piston: PositiveLength = Field(description="diameter", usual=ranges.DIAMETER)
     rod: Annotated[OneNumber, Quantity("length")] = Field(default=0.0, description="diameter")
-    stroke: PositiveLength = Field(usual=ranges.STROKE)
-    retracted_length: PositiveLength = Field(
-        description="distance of its ends at the start of the stroke", usual=ranges.STROKE
-    )
+    stroke: ranges.Stroke = Field()
+    retracted_length: ranges.Stroke = Field(description="distance of its ends at the start of the stroke")
     acting: Literal["double", "single", "plunger"] = "double"
     seal_leakage: Leakage = Field(default=0.0, description="flow from A to B past the piston, laminar")
     friction: Maybe[OneRecord[PistonFriction]] = Field(default=None)
-    heat_transfer: Maybe[HeatTransfer] = Field(
+    heat_transfer: Maybe[ranges.WallTransfer] = Field(
         default=None,
         description="of gases: heat over the area of the walls of a chamber and the difference of temperature; not with `heat_conductance`",
-        usual=ranges.HEAT_TRANSFER,
     )
     cushion_A: Maybe[OneRecord[Cushion]] = Field(default=None, description="at the start of the stroke")
     cushion_B: Maybe[OneRecord[Cushion]] = Field(default=None, description="at the end of the stroke")
@@ -129,9 +126,7 @@ class TelescopicCylinder(Ends, Actuator):
         description="of each stage", usual=ranges.STROKE
     )
     transition: PositiveLength = Field(default=5e-3, description="stroke over which one stage passes to the next")
-    retracted_length: PositiveLength = Field(
-        description="distance of its ends at the start of the stroke", usual=ranges.STROKE
-    )
+    retracted_length: ranges.Stroke = Field(description="distance of its ends at the start of the stroke")
     friction: Maybe[OneRecord[PistonFriction]] = Field(default=None)
 
     @property

@@ -15,7 +15,7 @@ from nivel.elements.states import Coupled
 from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.record.record import NONE
 from nivel.machine.core.between import Ends
-from nivel.machine.core.coefficient import Pressure, Restitution, ThermalConductance, Volume
+from nivel.machine.core.coefficient import Restitution, ThermalConductance
 from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, Maybe, OneNumber, Usual
 from nivel.machine.units.quantity import Quantity
@@ -37,27 +37,23 @@ class Actuator(Component):
     gases: ClassVar[bool] = True
     usual: ClassVar[Mapping[str, Usual]] = {**Component.usual, "speed": ranges.PISTON_SPEED}
 
-    dead_volume_A: Maybe[Volume] = Field(
-        default=None,
-        description="of A, with its hose, at the start of the stroke; default 2 % of what is swept",
-        usual=ranges.VOLUME,
+    dead_volume_A: Maybe[ranges.Size] = Field(
+        default=None, description="of A, with its hose, at the start of the stroke; default 2 % of what is swept"
     )
-    dead_volume_B: Maybe[Volume] = Field(
-        default=None,
-        description="of B, with its hose, at the end of the stroke; default 2 % of what is swept",
-        usual=ranges.VOLUME,
+    dead_volume_B: Maybe[ranges.Size] = Field(
+        default=None, description="of B, with its hose, at the end of the stroke; default 2 % of what is swept"
     )
-    wall_modulus: Maybe[Pressure] = Field(
-        default=None, description="as of a volume, of dead volumes with their hoses", usual=ranges.WALL_MODULUS
+    wall_modulus: Maybe[ranges.WallModulus] = Field(
+        default=None, description="as of a volume, of dead volumes with their hoses"
     )
     heat_conductance: Maybe[ThermalConductance] = Field(
         default=None, description="of the walls of each chamber, as of a volume"
     )
-    start_A: Maybe[Pressure] = Field(
-        default=None, description="pressure in A at the start; default: what carries the load", usual=ranges.PRESSURE
+    start_A: Maybe[ranges.Level] = Field(
+        default=None, description="pressure in A at the start; default: what carries the load"
     )
-    start_B: Maybe[Pressure] = Field(
-        default=None, description="pressure in B at the start; default: what carries the load", usual=ranges.PRESSURE
+    start_B: Maybe[ranges.Level] = Field(
+        default=None, description="pressure in B at the start; default: what carries the load"
     )
     stop_stiffness: StopStiffness = Field(default=2e8, description="of the ends of the stroke")
     stop_restitution: Restitution = Field(default=0.2, description="speed after over speed before the end is met")

@@ -13,7 +13,7 @@ from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.restrictions import add_flow, rated
 from nivel.elements.circuits.symbol import Symbol, circle, path
 from nivel.machine.core.checked import Problem
-from nivel.machine.core.coefficient import Leakage, NotNegativeDuration, NotNegativePressure, PositiveNumber, Pressure
+from nivel.machine.core.coefficient import Leakage, PositiveNumber
 from nivel.machine.core.element import Acts, Inequalities
 from nivel.machine.given import Field, Maybe
 
@@ -42,14 +42,10 @@ class CheckValve(Rated):
     )
 
     type: Literal["check-valve"] = "check-valve"
-    opens_at: NotNegativePressure = Field(
-        default=0.5e5, description="difference of pressure at which it begins to open", usual=ranges.DIFFERENCE
-    )
-    opening_range: Pressure = Field(
-        default=3e5, description="difference of pressure from there to fully open", usual=ranges.DIFFERENCE
-    )
+    opens_at: ranges.LeastDrop = Field(default=0.5e5, description="difference of pressure at which it begins to open")
+    opening_range: ranges.Drop = Field(default=3e5, description="difference of pressure from there to fully open")
     pilot_ratio: Maybe[PositiveNumber] = Field(default=None, description="area of the pilot over that of the seat")
-    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none", usual=ranges.LAG)
+    lag: ranges.Lag = Field(default=0.0, description="time constant of the opening; 0: none")
     leakage: Leakage = Field(default=0.0)
 
     @property
@@ -71,10 +67,8 @@ class ShuttleValve(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow_A", "flow_B", "position")
 
     type: Literal["shuttle-valve"] = "shuttle-valve"
-    opening_range: Pressure = Field(
-        default=0.5e5, description="difference of pressure over which it changes sides", usual=ranges.DIFFERENCE
-    )
-    lag: NotNegativeDuration = Field(default=0.0, description="time constant; 0: none", usual=ranges.LAG)
+    opening_range: ranges.Drop = Field(default=0.5e5, description="difference of pressure over which it changes sides")
+    lag: ranges.Lag = Field(default=0.0, description="time constant; 0: none")
     leakage: Leakage = Field(default=0.0)
 
 
@@ -86,13 +80,9 @@ class QuickExhaust(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow_PA", "flow_AR", "position", "exhaust_position")
 
     type: Literal["quick-exhaust"] = "quick-exhaust"
-    opens_at: Pressure = Field(
-        default=0.05e5, description="difference at which it begins to open", usual=ranges.DIFFERENCE
-    )
-    opening_range: Pressure = Field(
-        default=0.2e5, description="difference of pressure from there to fully open", usual=ranges.DIFFERENCE
-    )
-    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none", usual=ranges.LAG)
+    opens_at: ranges.Drop = Field(default=0.05e5, description="difference at which it begins to open")
+    opening_range: ranges.Drop = Field(default=0.2e5, description="difference of pressure from there to fully open")
+    lag: ranges.Lag = Field(default=0.0, description="time constant of the opening; 0: none")
     leakage: Leakage = Field(default=0.0)
 
 

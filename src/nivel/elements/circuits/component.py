@@ -9,7 +9,7 @@ from pydantic import BeforeValidator, WithJsonSchema
 
 from nivel.elements.circuits import ranges
 from nivel.machine.core.checked import Checked, Problem, superfluous
-from nivel.machine.core.coefficient import Pressure, Share, SonicConductance, VolumeFlow
+from nivel.machine.core.coefficient import Share, SonicConductance
 from nivel.machine.core.element import Inequalities
 from nivel.machine.core.record import Name, entry, unknown_word
 from nivel.machine.given import Field, Maybe, Usual
@@ -117,12 +117,8 @@ def problem_of_share(key: str, value: object, least: float) -> Iterator[Problem]
 class Rating(Checked):
     """What a catalogue states of a restriction: of liquids `flow` at `pressure_drop`, of gases the numbers of ISO 6358."""
 
-    flow: Maybe[VolumeFlow] = Field(
-        default=None, description="through one edge, fully open, at `pressure_drop`", usual=ranges.FLOW
-    )
-    pressure_drop: Maybe[Pressure] = Field(
-        default=None, description="at which `flow` is measured", usual=ranges.DIFFERENCE
-    )
+    flow: Maybe[ranges.Flow] = Field(default=None, description="through one edge, fully open, at `pressure_drop`")
+    pressure_drop: Maybe[ranges.Drop] = Field(default=None, description="at which `flow` is measured")
     sonic_conductance: Maybe[SonicConductance] = Field(default=None, description="of gases: C of ISO 6358")
     critical_ratio: Maybe[Share] = Field(default=None, description="of gases: b of ISO 6358; default 0.3")
 
@@ -160,9 +156,7 @@ def _listed(names: list[str]) -> str:
 class Rated(Rating, Component):
     """A component with a flow from a catalogue, fully open."""
 
-    transition: Pressure = Field(
-        default=0.5e5, description="difference of pressure below which the root is rounded", usual=ranges.DIFFERENCE
-    )
+    transition: ranges.Drop = Field(default=0.5e5, description="difference of pressure below which the root is rounded")
 
     def problems(self) -> Iterator[Problem]:
         yield from Component.problems(self)

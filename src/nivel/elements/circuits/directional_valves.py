@@ -23,8 +23,9 @@ from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import tanh
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.record import NONE, record_at
+from nivel.lazy import replace
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Frequency, Leakage, PositiveNumber, Share
+from nivel.machine.core.coefficient import Leakage, PositiveNumber, Share
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.time_function import OneFunction, varying
@@ -61,8 +62,8 @@ class DirectionalValve(Rated):
     )
     rounding: Share = Field(default=0.02, description="share of the stroke over which an edge begins to open")
     centre: Centre = Field(default="closed", description="what is joined at the centre of a 4/3 or 5/3 valve")
-    frequency: Maybe[Frequency] = Field(
-        default=None, description="natural frequency of the spool; default: no lag", usual=ranges.SPOOL_FREQUENCY
+    frequency: Maybe[ranges.SpoolFrequency] = Field(
+        default=None, description="natural frequency of the spool; default: no lag"
     )
     damping_ratio: PositiveNumber = Field(default=0.8, description="of the spool")
     rate_limit: Maybe[Rate] = Field(default=None, description="greatest speed of the spool, full strokes per second")
@@ -210,8 +211,7 @@ OF_SPOOLS = (move, switch, restrict)
 
 def directional(data: Mapping[str, Any]) -> Symbol:
     """A directional valve."""
-    body, wide, high, above, below = directional_valve(data)
-    return Symbol(body, wide, high, above, below, "valve", (str(data["ways"]),))
+    return replace(directional_valve(data), settings=(str(data["ways"]),))
 
 
 KINDS = (ComponentKind(DirectionalValve, add_directional, OF_SPOOLS, symbol=directional),)

@@ -31,7 +31,7 @@ from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.function import table_value
 from nivel.kernels.record.record import NONE, record_at
 from nivel.machine.core.checked import Checked, Problem, superfluous
-from nivel.machine.core.coefficient import Leakage, Pressure, Share
+from nivel.machine.core.coefficient import Leakage, Share
 from nivel.machine.given import Field, Given, ManyNumbers, ManyRecords, Maybe, OneNumber
 from nivel.machine.laws.table import Table
 from nivel.machine.units.quantity import Angle, PositiveLength, Quantity, Whole, listed
@@ -93,9 +93,7 @@ class Edge(Checked):
     flow: Maybe[Annotated[SomeCurve, CurveOf("volume flow", SYMBOL)]] = Field(
         default=None, description="over the position, at `pressure_drop`"
     )
-    pressure_drop: Maybe[Pressure] = Field(
-        default=None, description="at which `flow` is measured", usual=ranges.DIFFERENCE
-    )
+    pressure_drop: Maybe[ranges.Drop] = Field(default=None, description="at which `flow` is measured")
     flows: Annotated[
         Given[
             tuple[Annotated[Curve, CurveOf("volume flow", SYMBOL)], ...],

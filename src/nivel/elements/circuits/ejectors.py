@@ -26,7 +26,7 @@ from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.record import record_at
 from nivel.machine.core.checked import Problem
-from nivel.machine.core.coefficient import NotNegativePressure, Pressure, Share, SonicConductance
+from nivel.machine.core.coefficient import NotNegativePressure, Share, SonicConductance
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber
 from nivel.machine.units.quantity import Quantity, listed
 from nivel.native.function import leaf
@@ -54,9 +54,7 @@ class Ejector(Component):
     suction_flows: Annotated[ManyNumbers[Annotated[OneNumber, Quantity("volume flow")]], BeforeValidator(listed)] = (
         Field(description="at these, at 20 °C and 1 bar; the last one is 0", usual=ranges.FLOW)
     )
-    drive: Pressure = Field(
-        default=3e5, description="p_P - p_R from which on it draws with its whole flow", usual=ranges.DIFFERENCE
-    )
+    drive: ranges.Drop = Field(default=3e5, description="p_P - p_R from which on it draws with its whole flow")
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

@@ -13,7 +13,7 @@ from nivel.elements.circuits.nodes import inner_nodes
 from nivel.elements.circuits.restrictions import GIVEN, add_flow, rated
 from nivel.elements.circuits.symbol import SPRING, Symbol, adjustable, check_at, in_bar, letters, moved, path, varies
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Leakage, NotNegativeDuration, Pressure, Share, Truth, Volume
+from nivel.machine.core.coefficient import Leakage, Pressure, Share, Truth
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field
 from nivel.machine.laws.time_function import OneFunction, varying
@@ -43,14 +43,10 @@ class FlowControl(Rated):
     setting: Setting = Field(default=1.0, description="opening of the orifice from 0 to 1")
     margin: Pressure = Field(default=7e5, description="difference of pressure that is held over the orifice")
     opening_range: Pressure = Field(default=2e5, description="of the compensator, from closed to fully open")
-    lag: NotNegativeDuration = Field(
-        default=0.005, description="time constant of the compensator; 0: none", usual=ranges.LAG
-    )
+    lag: ranges.Lag = Field(default=0.005, description="time constant of the compensator; 0: none")
     free_return: Truth = Field(default=False, description="whether a check valve lets fluid pass from A to P")
     leakage: Leakage = Field(default=0.0)
-    inner_volume: Volume = Field(
-        default=INNER_VOLUME, description="between compensator and orifice", usual=ranges.VOLUME
-    )
+    inner_volume: ranges.Size = Field(default=INNER_VOLUME, description="between compensator and orifice")
 
     @classmethod
     def nodes_in(cls, data: Any) -> tuple[str, ...]:
@@ -82,14 +78,12 @@ class FlowDivider(Rated):
     type: Literal["flow-divider"] = "flow-divider"
     share: Share = Field(default=0.5, description="of A in the whole flow; `flow` is the whole flow")
     combines: Truth = Field(default=False, description="whether it joins the flows of A and B at P")
-    opening_range: Pressure = Field(
-        default=1e5,
-        description="difference of pressure over which the spool moves from end to end",
-        usual=ranges.DIFFERENCE,
+    opening_range: ranges.Drop = Field(
+        default=1e5, description="difference of pressure over which the spool moves from end to end"
     )
-    lag: NotNegativeDuration = Field(default=0.005, description="time constant of the spool; 0: none", usual=ranges.LAG)
+    lag: ranges.Lag = Field(default=0.005, description="time constant of the spool; 0: none")
     leakage: Leakage = Field(default=0.0)
-    inner_volume: Volume = Field(default=INNER_VOLUME, description="behind each orifice", usual=ranges.VOLUME)
+    inner_volume: ranges.Size = Field(default=INNER_VOLUME, description="behind each orifice")
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -108,10 +102,8 @@ class PriorityValve(Rated):
 
     type: Literal["priority-valve"] = "priority-valve"
     margin: VaryingPressure = Field(default=7e5, description="held between CF and LS", usual=ranges.DIFFERENCE)
-    opening_range: Pressure = Field(
-        default=4e5, description="over which the flow passes from CF to EF", usual=ranges.DIFFERENCE
-    )
-    lag: NotNegativeDuration = Field(default=0.01, description="time constant of the spool; 0: none", usual=ranges.LAG)
+    opening_range: ranges.Drop = Field(default=4e5, description="over which the flow passes from CF to EF")
+    lag: ranges.Lag = Field(default=0.01, description="time constant of the spool; 0: none")
     leakage: Leakage = Field(default=0.0)
 
 

@@ -28,7 +28,6 @@ from nivel.machine.core.coefficient import (
     NotNegative,
     NotNegativeNumber,
     Pressure,
-    Temperature,
     ThermalExpansion,
     Truth,
     Viscosity,
@@ -130,10 +129,8 @@ class Fluid(Checked):
     name: Name
     type: Literal["liquid"] = Field(default="liquid", description="need not be given", optional=True)
     grade: GradeName | None = Field(default=None, description="a fluid by name; values that are given override its own")
-    temperature: Temperature = Field(
-        default=OF_CONSTANTS,
-        description="at which a `grade` has its constants, and that of the start",
-        usual=ranges.TEMPERATURE,
+    temperature: ranges.Warmth = Field(
+        default=OF_CONSTANTS, description="at which a `grade` has its constants, and that of the start"
     )
     density: Maybe[Density] = Field(
         default=None,
@@ -153,8 +150,8 @@ class Fluid(Checked):
     dissolved_air: Annotated[OneNumber, Quantity("number"), NotNegative] = Field(
         default=0.0, description="volume at atmospheric pressure of the air that comes out below `saturation_pressure`"
     )
-    saturation_pressure: Pressure = Field(
-        default=101325.0, description="absolute, from which on that air is dissolved", usual=ranges.PRESSURE
+    saturation_pressure: ranges.Level = Field(
+        default=101325.0, description="absolute, from which on that air is dissolved"
     )
     vapour_pressure: Maybe[Pressure] = Field(
         default=None,
@@ -180,10 +177,8 @@ class Fluid(Checked):
         description="thermal one, of a liquid that is not isothermal; default: that of its grade",
         usual=ranges.EXPANSION,
     )
-    surroundings: Maybe[Temperature] = Field(
-        default=None,
-        description="temperature around walls of a liquid that is not isothermal; default 293.15 K",
-        usual=ranges.TEMPERATURE,
+    surroundings: Maybe[ranges.Warmth] = Field(
+        default=None, description="temperature around walls of a liquid that is not isothermal; default 293.15 K"
     )
 
     @property
@@ -247,9 +242,7 @@ class Gas(Checked):
     heat_capacity_ratio: Annotated[OneNumber, Quantity("number")] = Field(
         default=1.4, description="c_p over c_v, of gas whose temperature is a state"
     )
-    temperature: Temperature = Field(
-        default=293.15, description="of tanks, of walls, and of all gas at the start", usual=ranges.TEMPERATURE
-    )
+    temperature: ranges.Warmth = Field(default=293.15, description="of tanks, of walls, and of all gas at the start")
     isothermal: Truth = Field(default=False, description="whether the gas keeps that temperature")
 
     @property

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
-from nivel.elements.circuits.component import Rated, VaryingPressure
+from nivel.elements.circuits.component import Rated
 from nivel.elements.circuits.composed import OF_POPPETS, PASSES, Moved, add_check_between, add_poppet
 from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.elements.circuits.kind import ComponentKind
@@ -17,18 +17,12 @@ from nivel.elements.circuits.symbol import Symbol, arrow, check_at, in_bar, move
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import (
     Leakage,
-    NotNegativeDuration,
-    NotNegativePressure,
     PositiveNumber,
-    Pressure,
     Truth,
-    Volume,
-    VolumeFlow,
 )
 from nivel.machine.core.element import Acts, Inequalities
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Maybe
-from nivel.machine.units.quantity import PositiveLength
 
 if TYPE_CHECKING:
     from nivel.system.builder import SystemBuilder
@@ -60,37 +54,25 @@ class CounterbalanceValve(Rated):
     )
 
     type: Literal["counterbalance-valve"] = "counterbalance-valve"
-    opens_at: VaryingPressure = Field(
-        description="load pressure at which it begins to open without a pilot", usual=ranges.PRESSURE
-    )
-    opening_range: Pressure = Field(
-        default=80e5, description="control pressure from there to fully open", usual=ranges.DIFFERENCE
-    )
+    opens_at: ranges.VaryingLevel = Field(description="load pressure at which it begins to open without a pilot")
+    opening_range: ranges.Drop = Field(default=80e5, description="control pressure from there to fully open")
     pilot_ratio: PositiveNumber = Field(default=3.0, description="R")
     vented: Truth = Field(default=False, description="whether the pressure at V does not act on it")
-    lag: NotNegativeDuration = Field(
-        default=0.01, description="time constant of the opening; 0: none", usual=ranges.LAG
+    lag: ranges.Lag = Field(default=0.01, description="time constant of the opening; 0: none")
+    check_flow: Maybe[ranges.Flow] = Field(default=None, description="of the check valve; default `flow`")
+    check_pressure_drop: Maybe[ranges.Drop] = Field(
+        default=None, description="of the check valve; default `pressure_drop`"
     )
-    check_flow: Maybe[VolumeFlow] = Field(
-        default=None, description="of the check valve; default `flow`", usual=ranges.FLOW
-    )
-    check_pressure_drop: Maybe[Pressure] = Field(
-        default=None, description="of the check valve; default `pressure_drop`", usual=ranges.DIFFERENCE
-    )
-    check_opens_at: NotNegativePressure = Field(default=0.5e5, usual=ranges.DIFFERENCE)
-    check_opening_range: Pressure = Field(default=4e5, usual=ranges.DIFFERENCE)
+    check_opens_at: ranges.LeastDrop = Field(default=0.5e5)
+    check_opening_range: ranges.Drop = Field(default=4e5)
     leakage: Leakage = Field(default=0.0)
-    pilot_orifice: Maybe[PositiveLength] = Field(
-        default=None, description="diameter of an orifice in the pilot line; default: none", usual=ranges.BORE
+    pilot_orifice: Maybe[ranges.Bore] = Field(
+        default=None, description="diameter of an orifice in the pilot line; default: none"
     )
-    drain_orifice: Maybe[PositiveLength] = Field(
-        default=None,
-        description="diameter of an orifice from behind it to V: the pilot is a share of X",
-        usual=ranges.BORE,
+    drain_orifice: Maybe[ranges.Bore] = Field(
+        default=None, description="diameter of an orifice from behind it to V: the pilot is a share of X"
     )
-    inner_volume: Volume = Field(
-        default=2e-6, description="of the pilot chamber behind its orifice", usual=ranges.VOLUME
-    )
+    inner_volume: ranges.Size = Field(default=2e-6, description="of the pilot chamber behind its orifice")
 
     @classmethod
     def nodes_in(cls, data: Any) -> tuple[str, ...]:
@@ -123,19 +105,12 @@ class BrakeValve(Rated):
 
     needs: ClassVar[tuple[str, ...]] = ("VA", "VB", "A", "B")
     functions: ClassVar[tuple[str, ...]] = ("opens_at",)
-    late: ClassVar[tuple[str, ...]] = (
-        "flow_A",
-        "flow_B",
-        "position_A",
-        "position_B",
-        "check_flow_A",
-        "check_flow_B",
-    )
+    late: ClassVar[tuple[str, ...]] = ("flow_A", "flow_B", "position_A", "position_B", "check_flow_A", "check_flow_B")
 
     type: Literal["brake-valve"] = "brake-valve"
-    opens_at: VaryingPressure = Field(default=10e5, description="of the pilot, above the air", usual=ranges.PRESSURE)
-    opening_range: Pressure = Field(default=15e5, description="from there to fully open", usual=ranges.DIFFERENCE)
-    lag: NotNegativeDuration = Field(default=0.02, description="time constant of the spool; 0: none", usual=ranges.LAG)
+    opens_at: ranges.VaryingLevel = Field(default=10e5, description="of the pilot, above the air")
+    opening_range: ranges.Drop = Field(default=15e5, description="from there to fully open")
+    lag: ranges.Lag = Field(default=0.02, description="time constant of the spool; 0: none")
     leakage: Leakage = Field(default=0.0)
 
 

@@ -35,10 +35,10 @@ from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.kernels.record.record import record_at
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import NotNegativeNumber, Pressure, Truth
+from nivel.machine.core.coefficient import NotNegativeNumber, Truth
 from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, Maybe, OneRecord
-from nivel.machine.units.quantity import PositiveLength, Whole
+from nivel.machine.units.quantity import Whole
 from nivel.native.function import leaf
 
 if TYPE_CHECKING:
@@ -61,20 +61,18 @@ class Line(Component):
     late: ClassVar[tuple[str, ...]] = ("flow_A", "flow_B")
 
     type: Literal["line"] = "line"
-    diameter: PositiveLength = Field(usual=ranges.BORE)
-    diameter_B: Maybe[PositiveLength] = Field(
-        default=None, description="at B, where it changes evenly along the line", usual=ranges.BORE
-    )
-    length: PositiveLength = Field(usual=ranges.PIPE_LENGTH)
+    diameter: ranges.Bore = Field()
+    diameter_B: Maybe[ranges.Bore] = Field(default=None, description="at B, where it changes evenly along the line")
+    length: ranges.PipeLength = Field()
     segments: Whole = Field(default=10, description="number of its volumes, up to 100")
     unsteady_friction: Truth = Field(default=True, description="whether friction depends on the frequency (Zielke)")
     bends: NotNegativeNumber = Field(default=0.0, description="sum of the loss coefficients of bends and fittings")
-    wall_modulus: Maybe[Pressure] = Field(default=None, description="as of a volume", usual=ranges.WALL_MODULUS)
+    wall_modulus: Maybe[ranges.WallModulus] = Field(default=None, description="as of a volume")
     expansion: Maybe[OneRecord[LengthExpansion]] = Field(
         default=None, description="growth of a hose over the pressure, in place of `wall_modulus`"
     )
-    start: Maybe[Pressure] = Field(
-        default=None, description="pressure at the start; default: that of a steady circuit", usual=ranges.PRESSURE
+    start: Maybe[ranges.Level] = Field(
+        default=None, description="pressure at the start; default: that of a steady circuit"
     )
     fluid: Name | None = Field(default=None, description="default: the only one")
 
@@ -106,9 +104,7 @@ OUTPUT, FROM, TO, STATE, FIRST_PART, PARTS = 0, 1, 2, 3, 4, 5
 # |Q| is rounded [m³/s]
 RESISTANCE, CRITICAL, SLENDER, KINETIC_DENSITY, BENDS, UNSTEADY, DECAY, SMALL = range(8)
 # n_i and m_i
-RATES = np.array(
-    (26.3744, 72.8033, 187.424, 536.626, 1570.60, 4618.13, 13601.1, 40082.5, 118153.0, 348316.0),
-)
+RATES = np.array((26.3744, 72.8033, 187.424, 536.626, 1570.60, 4618.13, 13601.1, 40082.5, 118153.0, 348316.0))
 WEIGHTS = np.array((1.0, 1.16725, 2.20064, 3.92861, 6.78788, 11.6761, 20.0612, 34.4541, 59.1642, 101.590))
 
 

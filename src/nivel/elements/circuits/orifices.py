@@ -13,10 +13,9 @@ from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.restrictions import FIXED, GIVEN, add_flow, rated, restrict
 from nivel.elements.circuits.symbol import Symbol, adjustable, path, varies
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Leakage, Pressure, Share
+from nivel.machine.core.coefficient import Leakage, Share
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.time_function import OneFunction, varying
-from nivel.machine.units.quantity import PositiveLength
 
 if TYPE_CHECKING:
     from nivel.elements.circuits.nodes import Node
@@ -35,13 +34,11 @@ class Orifice(Rating, Component):
     passes: ClassVar[tuple[tuple[str, str], ...]] = (("A", "B"), ("B", "A"))
 
     type: Literal["orifice"] = "orifice"
-    diameter: Maybe[PositiveLength] = Field(default=None, usual=ranges.BORE)
+    diameter: Maybe[ranges.Bore] = Field(default=None)
     discharge_coefficient: Share = Field(default=0.65)
     leakage: Leakage = Field(default=0.0, description="flow over the difference of pressure, laminar")
     opening: Opening = Field(default=1.0, description="from 0, closed, to 1")
-    transition: Pressure = Field(
-        default=0.5e5, description="difference of pressure below which the root is rounded", usual=ranges.DIFFERENCE
-    )
+    transition: ranges.Drop = Field(default=0.5e5, description="difference of pressure below which the root is rounded")
 
     def problems(self) -> Iterator[Problem]:
         yield from Component.problems(self)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
-from nivel.elements.circuits.component import Rated, VaryingPressure
+from nivel.elements.circuits.component import Rated
 from nivel.elements.circuits.composed import INNER_VOLUME, OF_POPPETS, Moved, add_single, sums
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
@@ -14,11 +14,8 @@ from nivel.elements.circuits.restrictions import add_flow, rated
 from nivel.elements.circuits.symbol import Symbol, adjustable, in_bar, path, square, varies
 from nivel.machine.core.coefficient import (
     Leakage,
-    NotNegativeDuration,
-    NotNegativePressure,
     Pressure,
     Share,
-    Volume,
     VolumeFlow,
 )
 from nivel.machine.given import Field
@@ -38,19 +35,15 @@ class _Piloted(Rated):
     pilot_flow: VolumeFlow = Field(
         default=2e-3 / 60.0, description="of the orifice at `pilot_pressure_drop`; that of the open pilot is twice it"
     )
-    pilot_pressure_drop: Pressure = Field(default=5e5, usual=ranges.DIFFERENCE)
-    pilot_range: Pressure = Field(default=3e5, description="over which the pilot opens wholly", usual=ranges.DIFFERENCE)
-    spring: NotNegativePressure = Field(
-        default=2e5,
-        description="difference of pressure at which the main stage begins to move",
-        usual=ranges.DIFFERENCE,
+    pilot_pressure_drop: ranges.Drop = Field(default=5e5)
+    pilot_range: ranges.Drop = Field(default=3e5, description="over which the pilot opens wholly")
+    spring: ranges.LeastDrop = Field(
+        default=2e5, description="difference of pressure at which the main stage begins to move"
     )
     opening_range: Pressure = Field(default=3e5, description="from there to the other end of its stroke")
-    lag: NotNegativeDuration = Field(
-        default=0.005, description="time constant of the main stage; 0: none", usual=ranges.LAG
-    )
+    lag: ranges.Lag = Field(default=0.005, description="time constant of the main stage; 0: none")
     leakage: Leakage = Field(default=0.0)
-    inner_volume: Volume = Field(default=INNER_VOLUME, description="of the spring chamber", usual=ranges.VOLUME)
+    inner_volume: ranges.Size = Field(default=INNER_VOLUME, description="of the spring chamber")
 
     @property
     def pilot_conductance(self) -> float:
@@ -69,9 +62,7 @@ class PilotReliefValve(_Piloted):
     relieves: ClassVar[str] = "P"
 
     type: Literal["pilot-relief-valve"] = "pilot-relief-valve"
-    opens_at: VaryingPressure = Field(
-        description="difference of pressure of X and T at which the pilot opens", usual=ranges.PRESSURE
-    )
+    opens_at: ranges.VaryingLevel = Field(description="difference of pressure of X and T at which the pilot opens")
 
 
 class PilotReducingValve(_Piloted):
@@ -82,9 +73,7 @@ class PilotReducingValve(_Piloted):
     functions: ClassVar[tuple[str, ...]] = ("pressure",)
 
     type: Literal["pilot-reducing-valve"] = "pilot-reducing-valve"
-    pressure: VaryingPressure = Field(
-        description="difference of pressure of X and T at which the pilot opens", usual=ranges.PRESSURE
-    )
+    pressure: ranges.VaryingLevel = Field(description="difference of pressure of X and T at which the pilot opens")
 
 
 class CartridgeValve(Rated):
@@ -96,11 +85,9 @@ class CartridgeValve(Rated):
 
     type: Literal["cartridge-valve"] = "cartridge-valve"
     area_share: Share = Field(default=0.5, description="area of A over that of X; 1: B does not act")
-    opens_at: NotNegativePressure = Field(
-        default=2e5, description="of its spring, on the area of X", usual=ranges.DIFFERENCE
-    )
-    opening_range: Pressure = Field(default=3e5, description="from there to fully open", usual=ranges.DIFFERENCE)
-    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none", usual=ranges.LAG)
+    opens_at: ranges.LeastDrop = Field(default=2e5, description="of its spring, on the area of X")
+    opening_range: ranges.Drop = Field(default=3e5, description="from there to fully open")
+    lag: ranges.Lag = Field(default=0.0, description="time constant of the opening; 0: none")
     leakage: Leakage = Field(default=0.0)
 
 

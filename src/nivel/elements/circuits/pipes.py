@@ -22,7 +22,6 @@ from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.record import record_at
 from nivel.machine.core.coefficient import Truth
 from nivel.machine.given import Field
-from nivel.machine.units.quantity import PositiveLength
 
 if TYPE_CHECKING:
     from nivel.system.builder import SystemBuilder
@@ -39,8 +38,8 @@ class Pipe(Component):
     passes: ClassVar[tuple[tuple[str, str], ...]] = (("A", "B"), ("B", "A"))
 
     type: Literal["pipe"] = "pipe"
-    diameter: PositiveLength = Field(usual=ranges.BORE)
-    length: PositiveLength = Field(usual=ranges.PIPE_LENGTH)
+    diameter: ranges.Bore = Field()
+    length: ranges.PipeLength = Field()
     inertia: Truth = Field(default=False, description="whether the flow has inertia: a state")
 
 

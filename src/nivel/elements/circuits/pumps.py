@@ -25,7 +25,7 @@ from nivel.elements.circuits.rotary import SETTING, RotaryMachine, Setting, set_
 from nivel.elements.circuits.symbol import Symbol, adjustable, circle, path, setting, varies
 from nivel.kernels.record.record import NONE
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Displacement, Pressure, Share
+from nivel.machine.core.coefficient import Displacement, Share
 from nivel.machine.core.record import Name
 from nivel.machine.given import Field, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.time_function import OneFunction, varying
@@ -81,18 +81,12 @@ class Pump(RotaryMachine):
     cut_off_curve: Maybe[OneRecord[CutOffCurve]] = Field(
         default=None, description="greatest setting over the difference of pressure"
     )
-    margin: Maybe[Pressure] = Field(
-        default=None, description="load sensing: held between B and LS", usual=ranges.DIFFERENCE
-    )
-    control_range: Pressure = Field(
-        default=10e5,
-        description="load sensing: pressure error at which it moves at full speed",
-        usual=ranges.DIFFERENCE,
+    margin: Maybe[ranges.Drop] = Field(default=None, description="load sensing: held between B and LS")
+    control_range: ranges.Drop = Field(
+        default=10e5, description="load sensing: pressure error at which it moves at full speed"
     )
     response: Duration = Field(default=0.08, description="load sensing: time from empty to full")
-    cut_off: Maybe[Pressure] = Field(
-        default=None, description="load sensing: greatest pressure at B", usual=ranges.DIFFERENCE
-    )
+    cut_off: Maybe[ranges.Drop] = Field(default=None, description="load sensing: greatest pressure at B")
 
     @property
     def is_regulated(self) -> bool:

@@ -1,10 +1,23 @@
-"""Usual ranges of quantities of circuits, from small laboratory devices to the largest machines that are built."""
+"""Usual ranges of quantities of circuits, from small laboratory devices to the largest machines that are built, and the quantities that
+many components have, each with its own."""
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Annotated, Final
 
+from nivel.machine.core.coefficient import (
+    Frequency,
+    HeatTransfer,
+    NotNegativeDuration,
+    NotNegativePressure,
+    Pressure,
+    Temperature,
+    Volume,
+    VolumeFlow,
+)
 from nivel.machine.given import Usual
+from nivel.machine.laws.time_function import OneFunction, varying
+from nivel.machine.units.quantity import PositiveLength
 
 # Water jets apart, circuits of machines stay below 700 bar; the least pressure is that of a vacuum pump.
 PRESSURE: Final = Usual(0.01, 700.0, "bar", "250 bar")
@@ -38,3 +51,18 @@ SPOOL_STROKE: Final = Usual(0.05, 100.0, "mm", "7 mm")
 CURRENT: Final = Usual(0.0, 20.0, "A", "0.6 A")
 LAG: Final = Usual(1e-5, 1.0, "s", "10 ms")
 SPOOL_FREQUENCY: Final = Usual(0.2, 1000.0, "Hz", "8 Hz")
+
+Level = Annotated[Pressure, PRESSURE]
+VaryingLevel = Annotated[OneFunction, varying("pressure"), PRESSURE]
+Drop = Annotated[Pressure, DIFFERENCE]
+LeastDrop = Annotated[NotNegativePressure, DIFFERENCE]
+Flow = Annotated[VolumeFlow, FLOW]
+Size = Annotated[Volume, VOLUME]
+Lag = Annotated[NotNegativeDuration, LAG]
+Bore = Annotated[PositiveLength, BORE]
+Stroke = Annotated[PositiveLength, STROKE]
+PipeLength = Annotated[PositiveLength, PIPE_LENGTH]
+WallModulus = Annotated[Pressure, WALL_MODULUS]
+WallTransfer = Annotated[HeatTransfer, HEAT_TRANSFER]
+Warmth = Annotated[Temperature, TEMPERATURE]
+SpoolFrequency = Annotated[Frequency, SPOOL_FREQUENCY]

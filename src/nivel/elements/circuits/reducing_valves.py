@@ -13,7 +13,7 @@ from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.restrictions import add_flow, rated
 from nivel.elements.circuits.symbol import SPRING, Symbol, adjustable, arrow, check_at, in_bar, path, square, varies
 from nivel.machine.core.checked import Problem
-from nivel.machine.core.coefficient import Leakage, NotNegativeDuration, Pressure, Share, Truth
+from nivel.machine.core.coefficient import Leakage, Share, Truth
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field
 
@@ -31,11 +31,9 @@ class ReducingValve(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow", "position", "relief_flow")
 
     type: Literal["reducing-valve"] = "reducing-valve"
-    pressure: VaryingPressure = Field(description="at A, absolute, at which it is closed", usual=ranges.PRESSURE)
-    opening_range: Pressure = Field(
-        default=5e5, description="pressure below that at which it is fully open", usual=ranges.DIFFERENCE
-    )
-    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none", usual=ranges.LAG)
+    pressure: ranges.VaryingLevel = Field(description="at A, absolute, at which it is closed")
+    opening_range: ranges.Drop = Field(default=5e5, description="pressure below that at which it is fully open")
+    lag: ranges.Lag = Field(default=0.0, description="time constant of the opening; 0: none")
     leakage: Leakage = Field(default=0.0)
 
     @classmethod
@@ -57,10 +55,8 @@ class Compensator(Rated):
 
     type: Literal["compensator"] = "compensator"
     margin: VaryingPressure = Field(default=7e5, description="held between A and LS", usual=ranges.DIFFERENCE)
-    opening_range: Pressure = Field(default=6e5, description="from closed to fully open", usual=ranges.DIFFERENCE)
-    lag: NotNegativeDuration = Field(
-        default=0.01, description="time constant of the opening; 0: none", usual=ranges.LAG
-    )
+    opening_range: ranges.Drop = Field(default=6e5, description="from closed to fully open")
+    lag: ranges.Lag = Field(default=0.01, description="time constant of the opening; 0: none")
     leakage: Leakage = Field(default=0.0)
 
 
@@ -74,9 +70,9 @@ class SequenceValve(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow", "position", "check_flow")
 
     type: Literal["sequence-valve"] = "sequence-valve"
-    opens_at: VaryingPressure = Field(description="pressure of P above that of the drain", usual=ranges.PRESSURE)
-    opening_range: Pressure = Field(default=10e5, description="from there to fully open", usual=ranges.DIFFERENCE)
-    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none", usual=ranges.LAG)
+    opens_at: ranges.VaryingLevel = Field(description="pressure of P above that of the drain")
+    opening_range: ranges.Drop = Field(default=10e5, description="from there to fully open")
+    lag: ranges.Lag = Field(default=0.0, description="time constant of the opening; 0: none")
     free_return: Truth = Field(default=False, description="whether a check valve lets fluid pass from A to P")
     leakage: Leakage = Field(default=0.0)
 
@@ -96,12 +92,8 @@ class SoftStart(Rated):
     type: Literal["soft-start"] = "soft-start"
     throttle: Share = Field(default=0.05, description="opening while it fills, as a share of the whole one")
     switches_at: Share = Field(default=0.5, description="p_A over p_P, absolute, at which it opens")
-    opening_range: Pressure = Field(
-        default=0.2e5, description="difference of pressure from there to fully open", usual=ranges.DIFFERENCE
-    )
-    lag: NotNegativeDuration = Field(
-        default=0.05, description="time constant of the opening; 0: none", usual=ranges.LAG
-    )
+    opening_range: ranges.Drop = Field(default=0.2e5, description="difference of pressure from there to fully open")
+    lag: ranges.Lag = Field(default=0.05, description="time constant of the opening; 0: none")
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

@@ -6,14 +6,14 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
-from nivel.elements.circuits.component import Rated, VaryingPressure
+from nivel.elements.circuits.component import Rated
 from nivel.elements.circuits.composed import OF_POPPETS, PASSES, Moved, add_check_between, add_poppet, add_single, sums
 from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.restrictions import add_flow, rated
 from nivel.elements.circuits.symbol import SPRING, Symbol, adjustable, arrow, check_at, in_bar, path, square, varies
 from nivel.machine.core.checked import Problem
-from nivel.machine.core.coefficient import Leakage, NotNegativeDuration, NotNegativePressure, Pressure, VolumeFlow
+from nivel.machine.core.coefficient import Leakage
 from nivel.machine.core.element import Inequalities
 from nivel.machine.given import Field, Maybe
 
@@ -33,13 +33,9 @@ class ReliefValve(Rated):
     inequalities: ClassVar[Inequalities] = (PASSES,)
 
     type: Literal["relief-valve"] = "relief-valve"
-    opens_at: VaryingPressure = Field(
-        description="difference of pressure at which it begins to open", usual=ranges.PRESSURE
-    )
-    opening_range: Pressure = Field(
-        description="difference of pressure from there to fully open", usual=ranges.DIFFERENCE
-    )
-    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none", usual=ranges.LAG)
+    opens_at: ranges.VaryingLevel = Field(description="difference of pressure at which it begins to open")
+    opening_range: ranges.Drop = Field(description="difference of pressure from there to fully open")
+    lag: ranges.Lag = Field(default=0.0, description="time constant of the opening; 0: none")
     leakage: Leakage = Field(default=0.0)
 
     @property
@@ -57,13 +53,9 @@ class UnloadingValve(Rated):
     relieves: ClassVar[str] = "P"
 
     type: Literal["unloading-valve"] = "unloading-valve"
-    opens_at: VaryingPressure = Field(
-        description="with LS: difference of P and LS; with X: that of X and the air", usual=ranges.PRESSURE
-    )
-    opening_range: Pressure = Field(default=3e5, description="from there to fully open", usual=ranges.DIFFERENCE)
-    lag: NotNegativeDuration = Field(
-        default=0.01, description="time constant of the opening; 0: none", usual=ranges.LAG
-    )
+    opens_at: ranges.VaryingLevel = Field(description="with LS: difference of P and LS; with X: that of X and the air")
+    opening_range: ranges.Drop = Field(default=3e5, description="from there to fully open")
+    lag: ranges.Lag = Field(default=0.01, description="time constant of the opening; 0: none")
     leakage: Leakage = Field(default=0.0)
 
     def problems(self) -> Iterator[Problem]:
@@ -91,19 +83,13 @@ class CrossPortRelief(Rated):
     )
 
     type: Literal["cross-port-relief"] = "cross-port-relief"
-    opens_at: VaryingPressure = Field(description="difference of pressure of both lines", usual=ranges.PRESSURE)
-    opening_range: Pressure = Field(default=20e5, description="from there to fully open", usual=ranges.DIFFERENCE)
-    lag: NotNegativeDuration = Field(
-        default=0.0, description="time constant of the relief valves; 0: none", usual=ranges.LAG
-    )
-    check_flow: Maybe[VolumeFlow] = Field(
-        default=None, description="of the anti-cavitation valves; default `flow`", usual=ranges.FLOW
-    )
-    check_pressure_drop: Maybe[Pressure] = Field(
-        default=None, description="of these; default `pressure_drop`", usual=ranges.DIFFERENCE
-    )
-    check_opens_at: NotNegativePressure = Field(default=0.2e5, usual=ranges.DIFFERENCE)
-    check_opening_range: Pressure = Field(default=1e5, usual=ranges.DIFFERENCE)
+    opens_at: ranges.VaryingLevel = Field(description="difference of pressure of both lines")
+    opening_range: ranges.Drop = Field(default=20e5, description="from there to fully open")
+    lag: ranges.Lag = Field(default=0.0, description="time constant of the relief valves; 0: none")
+    check_flow: Maybe[ranges.Flow] = Field(default=None, description="of the anti-cavitation valves; default `flow`")
+    check_pressure_drop: Maybe[ranges.Drop] = Field(default=None, description="of these; default `pressure_drop`")
+    check_opens_at: ranges.LeastDrop = Field(default=0.2e5)
+    check_opening_range: ranges.Drop = Field(default=1e5)
     leakage: Leakage = Field(default=0.0)
 
     @property

@@ -31,7 +31,7 @@ from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.record import NONE, record_at
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Displacement, Frequency, Leakage, PositiveNumber, Pressure, Share
+from nivel.machine.core.coefficient import Displacement, Frequency, Leakage, PositiveNumber, Share
 from nivel.machine.given import Field, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Quantity, Rate, Whole
@@ -59,9 +59,7 @@ class RotaryMachine(Component):
     ratio: PositiveNumber = Field(default=1.0, description="turns of the shaft per turn of the joint")
     volumetric_efficiency: Share = Field(default=1.0, description="at the nominal point")
     mechanical_efficiency: Share = Field(default=1.0, description="at the nominal point")
-    nominal_pressure: Maybe[Pressure] = Field(
-        default=None, description="difference of pressure of the efficiencies", usual=ranges.DIFFERENCE
-    )
+    nominal_pressure: Maybe[ranges.Drop] = Field(default=None, description="difference of pressure of the efficiencies")
     nominal_speed: Maybe[PositiveAngularVelocity] = Field(
         default=None, description="speed of the efficiencies", usual=ranges.SHAFT_SPEED
     )

@@ -20,13 +20,8 @@ from nivel.elements.states import StateFact
 from nivel.kernels.record.record import NONE
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import (
-    Frequency,
     Leakage,
-    NotNegativeDuration,
     PositiveNumber,
-    Pressure,
-    Volume,
-    VolumeFlow,
 )
 from nivel.machine.core.coefficient import Share as Proportion
 from nivel.machine.core.record import entry
@@ -72,18 +67,16 @@ class Section(Rated):
     type: Literal["section"] = "section"
     compensation: Literal["pre", "post", "none"] = Field(default="pre", description="where its compensator is")
     command: Annotated[OneFunction, varying("number")] = Field(description="position asked for")
-    flow_B: Maybe[VolumeFlow] = Field(default=None, description="of the edge to B; default `flow`", usual=ranges.FLOW)
-    return_flow: Maybe[VolumeFlow] = Field(
-        default=None,
-        description="of the edges to T, at `pressure_drop`; default: that of the other edges",
-        usual=ranges.FLOW,
+    flow_B: Maybe[ranges.Flow] = Field(default=None, description="of the edge to B; default `flow`")
+    return_flow: Maybe[ranges.Flow] = Field(
+        default=None, description="of the edges to T, at `pressure_drop`; default: that of the other edges"
     )
     overlap: Annotated[OneNumber, Quantity("number")] = Field(
         default=0.05, description="share of the stroke before an edge opens"
     )
     rounding: Proportion = Field(default=0.02, description="share of the stroke over which an edge begins to open")
-    frequency: Maybe[Frequency] = Field(
-        default=None, description="natural frequency of the spool; default: no lag", usual=ranges.SPOOL_FREQUENCY
+    frequency: Maybe[ranges.SpoolFrequency] = Field(
+        default=None, description="natural frequency of the spool; default: no lag"
     )
     damping_ratio: PositiveNumber = Field(default=0.8, description="of the spool")
     margin: VaryingPressure = Field(
@@ -92,17 +85,13 @@ class Section(Rated):
     saturation_share: Maybe[Proportion] = Field(
         default=None, description="of pre, in place of `margin`: share of p_P - p_LS, so that all fall together"
     )
-    opening_range: Pressure = Field(
-        default=4e5, description="of the compensator, from closed to fully open", usual=ranges.DIFFERENCE
+    opening_range: ranges.Drop = Field(default=4e5, description="of the compensator, from closed to fully open")
+    compensator_flow: Maybe[ranges.Flow] = Field(
+        default=None, description="of it, fully open, at `pressure_drop`; default twice `flow`"
     )
-    compensator_flow: Maybe[VolumeFlow] = Field(
-        default=None, description="of it, fully open, at `pressure_drop`; default twice `flow`", usual=ranges.FLOW
-    )
-    lag: NotNegativeDuration = Field(
-        default=0.01, description="time constant of the compensator; 0: none", usual=ranges.LAG
-    )
+    lag: ranges.Lag = Field(default=0.01, description="time constant of the compensator; 0: none")
     leakage: Leakage = Field(default=0.0, description="of each edge")
-    inner_volume: Volume = Field(default=INNER_VOLUME, description="between spool and compensator", usual=ranges.VOLUME)
+    inner_volume: ranges.Size = Field(default=INNER_VOLUME, description="between spool and compensator")
 
     @classmethod
     def nodes_in(cls, data: Any) -> tuple[str, ...]:
@@ -208,11 +197,11 @@ OF_SECTIONS = (move, lift, restrict)
 
 def section(data: Mapping[str, Any]) -> Symbol:
     """A section: its spool, and its compensator before or behind the metering edge."""
-    spool, wide, high, above, below = directional_valve({"ways": "4/3", "frequency": data.get("frequency") or 1.0})
+    spool = directional_valve({"ways": "4/3", "frequency": data.get("frequency") or 1.0})
     kind = data.get("compensation") or "pre"
     if kind == "none":
-        return Symbol(spool, wide, high, above, below, "valve")
-    body = moved(spool, 0.0, -13.0)
+        return spool
+    body, wide, below = moved(spool.body, 0.0, -13.0), spool.wide, spool.below
     p, t = below["P"], below["T"]
     if kind == "pre":
         body += path(f"M{p:g} 8 V12 M{p:g} 28 V34 M{p - 8:g} 12 h16 v16 h-16 z") + arrow(p, 28, 12)
@@ -222,7 +211,7 @@ def section(data: Mapping[str, Any]) -> Symbol:
         body += path(f"M{p:g} 8 V34 M{t:g} 8 V34 M-36 8 h16 v16 h-16 z M-28 8 V4 H{p:g} M-28 24 V30 H{p:g}")
         body += arrow(-28, 24, 8) + path("M-20 16 H40 V34", "dashed")
     body += path(f"M{-wide + 2:g} -32 H{wide - 2:g} V31 H{-wide + 2:g} Z", "frame")
-    return Symbol(body, wide, 34.0, above, {**below, "LS": 40.0}, "valve", in_bar(data, "margin"))
+    return Symbol(body, wide, 34.0, spool.above, {**below, "LS": 40.0}, "valve", in_bar(data, "margin"))
 
 
 KINDS = (ComponentKind(Section, add_section, OF_SECTIONS, symbol=section, nodes=inner_nodes("M", "C")),)

@@ -25,10 +25,10 @@ from nivel.elements.circuits.spools import (
     switch,
 )
 from nivel.elements.circuits.symbol import Symbol
-from nivel.elements.circuits.ways import boxes
+from nivel.elements.circuits.ways import spool
 from nivel.kernels.record.record import NONE
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Frequency, NotNegativeNumber, PositiveNumber, Pressure
+from nivel.machine.core.coefficient import NotNegativeNumber, PositiveNumber
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Given, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.table import Table
@@ -65,11 +65,7 @@ def ends_of(pair: str) -> tuple[str, str] | None:
 
 
 Edges = Annotated[
-    Given[
-        dict[Annotated[str, AfterValidator(_pair)], Edge],
-        dict[str, Edge],
-        Mapping[str, Edge | Mapping[str, Any]],
-    ],
+    Given[dict[Annotated[str, AfterValidator(_pair)], Edge], dict[str, Edge], Mapping[str, Edge | Mapping[str, Any]]],
     BeforeValidator(_edges),
 ]
 
@@ -101,8 +97,8 @@ class SpoolValve(Component):
         description="from the middle to the full stroke, of notches and springs",
         usual=ranges.SPOOL_STROKE,
     )
-    frequency: Maybe[Frequency] = Field(
-        default=None, description="natural frequency of the spool; default: no lag", usual=ranges.SPOOL_FREQUENCY
+    frequency: Maybe[ranges.SpoolFrequency] = Field(
+        default=None, description="natural frequency of the spool; default: no lag"
     )
     damping_ratio: PositiveNumber = Field(default=0.8, description="of the spool")
     dead_band: Annotated[OneNumber, Quantity("number")] = Field(
@@ -112,9 +108,7 @@ class SpoolValve(Component):
         default=0.0, description="share of the full command between the curves up and down"
     )
     dither: Maybe[OneRecord[Dither]] = Field(default=None)
-    transition: Pressure = Field(
-        default=0.5e5, description="difference of pressure below which the root is rounded", usual=ranges.DIFFERENCE
-    )
+    transition: ranges.Drop = Field(default=0.5e5, description="difference of pressure below which the root is rounded")
 
     @classmethod
     def signals_in(cls, data: Any) -> tuple[str, ...]:
@@ -244,9 +238,7 @@ def spool_valve(data: Mapping[str, Any]) -> Symbol:
     ports = sorted({port for pair in data.get("edges") or {} for port in ends_of(pair) or ()}, key=_place)
     top = [port for port in ports if port in ("A", "B", "C")]
     bottom = [port for port in ports if port not in top]
-    groups = [forward, middle, back] if back else [forward, middle]
-    body, wide, high, above, below = boxes(groups, top, bottom, spring="both" if back else "one")
-    return Symbol(body, wide, high, above, below, "valve")
+    return spool([forward, middle, back] if back else [forward, middle], top, bottom)
 
 
 def _place(port: str) -> int:

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
-from nivel.elements.circuits.component import Component, VaryingPressure, VaryingTemperature
+from nivel.elements.circuits.component import Component, VaryingTemperature
 from nivel.elements.circuits.density import HEAT_CAPACITY, START
 from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.elements.circuits.hoses import VolumeExpansion, hose_points
@@ -33,8 +33,7 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import Area, Exponent, HeatTransfer, Pressure, ThermalConductance, Truth
-from nivel.machine.core.coefficient import Volume as VolumeSize
+from nivel.machine.core.coefficient import Area, Exponent, ThermalConductance, Truth
 from nivel.machine.core.record import Name
 from nivel.machine.given import Field, Maybe, OneRecord
 from nivel.machine.units.quantity import PositiveLength
@@ -52,11 +51,9 @@ class Volume(Component):
     gases: ClassVar[bool] = True
 
     type: Literal["volume"] = "volume"
-    volume: VolumeSize = Field(usual=ranges.VOLUME)
-    wall_modulus: Maybe[Pressure] = Field(
-        default=None,
-        description="pressure over the relative growth of the volume; default: rigid walls",
-        usual=ranges.WALL_MODULUS,
+    volume: ranges.Size = Field()
+    wall_modulus: Maybe[ranges.WallModulus] = Field(
+        default=None, description="pressure over the relative growth of the volume; default: rigid walls"
     )
     expansion: Maybe[OneRecord[VolumeExpansion]] = Field(
         default=None, description="growth of the volume over the pressure, of a hose, in place of `wall_modulus`"
@@ -65,14 +62,13 @@ class Volume(Component):
         default=None,
         description="of gases, and of liquids that are not isothermal: heat through walls over the difference of temperature",
     )
-    heat_transfer: Maybe[HeatTransfer] = Field(
+    heat_transfer: Maybe[ranges.WallTransfer] = Field(
         default=None,
         description="of gases: heat over a `surface` and the difference of temperature; not with `heat_conductance`",
-        usual=ranges.HEAT_TRANSFER,
     )
     surface: Maybe[Area] = Field(default=None, description="of its walls, with `heat_transfer`", usual=ranges.SURFACE)
-    start: Maybe[Pressure] = Field(
-        default=None, description="pressure at the start; default: that of a steady circuit", usual=ranges.PRESSURE
+    start: Maybe[ranges.Level] = Field(
+        default=None, description="pressure at the start; default: that of a steady circuit"
     )
     fluid: Name | None = Field(default=None, description="default: the only one")
 
@@ -97,7 +93,7 @@ class Tank(Component):
     gases: ClassVar[bool] = True
 
     type: Literal["tank"] = "tank"
-    pressure: VaryingPressure = Field(default=ATMOSPHERE, description="absolute", usual=ranges.PRESSURE)
+    pressure: ranges.VaryingLevel = Field(default=ATMOSPHERE, description="absolute")
     temperature: Maybe[VaryingTemperature] = Field(
         default=None,
         description="of a liquid that is not isothermal; default: that of the fluid",
@@ -119,18 +115,16 @@ class Reservoir(Component):
     early: ClassVar[tuple[str, ...]] = ("pressure", "level", "oil", "temperature")
 
     type: Literal["reservoir"] = "reservoir"
-    volume: VolumeSize = Field(description="of liquid and air", usual=ranges.VOLUME)
-    oil: VolumeSize = Field(description="volume of the liquid at the start", usual=ranges.VOLUME)
+    volume: ranges.Size = Field(description="of liquid and air")
+    oil: ranges.Size = Field(description="volume of the liquid at the start")
     height: Maybe[PositiveLength] = Field(
         default=None,
         description="of the tank, whose walls are upright; default: that of a cube",
         usual=ranges.TANK_HEIGHT,
     )
     closed: Truth = Field(default=False, description="whether its air is closed in; else it comes and goes")
-    start: Maybe[Pressure] = Field(
-        default=None,
-        description="pressure of the air at the start, absolute; default: that of the atmosphere",
-        usual=ranges.PRESSURE,
+    start: Maybe[ranges.Level] = Field(
+        default=None, description="pressure of the air at the start, absolute; default: that of the atmosphere"
     )
     gas_exponent: Maybe[Exponent] = Field(
         default=None, description="polytropic exponent of air that is closed in; default 1"

@@ -31,10 +31,10 @@ from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.kernels.record.record import record_at
 from nivel.machine.core.checked import Problem
-from nivel.machine.core.coefficient import HeatTransfer, NotNegativeNumber, Pressure
+from nivel.machine.core.coefficient import NotNegativeNumber
 from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, Maybe
-from nivel.machine.units.quantity import PositiveLength, Whole
+from nivel.machine.units.quantity import Whole
 
 if TYPE_CHECKING:
     from nivel.elements.circuits.kind import Swept
@@ -55,17 +55,15 @@ class Tube(Component):
     late: ClassVar[tuple[str, ...]] = ("flow_A", "flow_B")
 
     type: Literal["tube"] = "tube"
-    diameter: PositiveLength = Field(description="inside", usual=ranges.BORE)
-    length: PositiveLength = Field(usual=ranges.PIPE_LENGTH)
+    diameter: ranges.Bore = Field(description="inside")
+    length: ranges.PipeLength = Field()
     segments: Whole = Field(default=10, description="number of its volumes, up to 100")
     bends: NotNegativeNumber = Field(default=0.0, description="sum of the loss coefficients of bends and fittings")
-    heat_transfer: HeatTransfer = Field(
-        default=0.0,
-        description="heat over the area of its walls and the difference of temperature",
-        usual=ranges.HEAT_TRANSFER,
+    heat_transfer: ranges.WallTransfer = Field(
+        default=0.0, description="heat over the area of its walls and the difference of temperature"
     )
-    start: Maybe[Pressure] = Field(
-        default=None, description="pressure at the start; default: that of a steady circuit", usual=ranges.PRESSURE
+    start: Maybe[ranges.Level] = Field(
+        default=None, description="pressure at the start; default: that of a steady circuit"
     )
     fluid: Name | None = Field(default=None, description="default: the only one")
 

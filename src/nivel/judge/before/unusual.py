@@ -30,7 +30,7 @@ from nivel.machine.core.between import End
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import Record
 from nivel.machine.forces.contact import Contact
-from nivel.machine.given import Shown, Usual
+from nivel.machine.given import Usual, usual_of
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.quantity import ANY, read_quantity
 from nivel.machine.uses.references import SECTIONS
@@ -134,9 +134,9 @@ def _of_fields(record: Record, place: str) -> Iterator[Finding]:
     """What is unusual in the fields of a record, and of those that it holds."""
     start = f"{place}." if place else ""
     for name, field in type(record).model_fields.items():
-        value, key, its = getattr(record, name), field.alias or name, field.json_schema_extra
-        if isinstance(its, Shown) and its.usual is not None:
-            yield from _of_value(value, its.usual, f"{start}{key}", key)
+        value, key, usual = getattr(record, name), field.alias or name, usual_of(field)
+        if usual is not None:
+            yield from _of_value(value, usual, f"{start}{key}", key)
         elif isinstance(value, Record):
             yield from _of_fields(value, f"{start}{key}")
 

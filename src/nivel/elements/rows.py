@@ -44,7 +44,7 @@ def element(law: Callable[..., Any]) -> Family:
         return OK
 
     update_wrapper(of_all, law)
-    del of_all.__wrapped__  # whose arguments Numba would take for its own
+    vars(of_all).pop("__wrapped__")  # whose arguments Numba would take for its own
     return family(of_all)
 
 

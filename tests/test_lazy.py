@@ -4,6 +4,9 @@ import copy
 import dataclasses
 import inspect
 import pickle
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from threading import Barrier
 
 import pytest
 
@@ -57,6 +60,24 @@ class Counter:
 )
 def test_a_class_answers_whatever_is_asked_first(ask):
     assert ask(weighted())
+
+
+def test_two_threads_may_ask_a_class_first_at_the_same_moment():
+    """A run and its verification do; a switch of threads at any place shows a class that is half made."""
+    before, begin = sys.getswitchinterval(), Barrier(2)
+
+    def asked(kind):
+        begin.wait()
+        return repr(kind(1.0, weight=2.0)), kind(1.0) < kind(1.0, 0.5), hash(kind(1.0)) == hash(kind(1.0))
+
+    sys.setswitchinterval(1e-6)
+    try:
+        with ThreadPoolExecutor(2) as threads:
+            for _ in range(40):
+                one, other = threads.map(asked, [weighted()] * 2)
+                assert one == other
+    finally:
+        sys.setswitchinterval(before)
 
 
 def test_what_was_pickled_is_read_back():

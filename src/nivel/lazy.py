@@ -282,6 +282,22 @@ if not TYPE_CHECKING:
     _FROZEN = ("__setattr__", "__delattr__")
     _ORDER = ("__lt__", "__le__", "__gt__", "__ge__")
 
+    def _complete(kind, own, options):
+        """Give a class what `dataclasses` makes for its double, which has its `own` names: while it is made other threads meet the stubs,
+        which wait, and no class that is half made."""
+        own = {name: value for name, value in own.items() if name not in ("__dict__", "__weakref__")}
+        double = type(kind)(kind.__name__, kind.__bases__, own | {"__qualname__": kind.__qualname__})
+        before = dict(vars(double))
+        dataclasses.dataclass(double, **options)
+        for name, value in vars(double).items():
+            if before.get(name, _MAKING) is not value:
+                for cell in getattr(value, "__closure__", None) or ():
+                    if cell.cell_contents is double:  # in `super(double, self)`
+                        cell.cell_contents = kind
+                setattr(kind, name, value)
+        for name in before.keys() - vars(double).keys():
+            delattr(kind, name)
+
     def dataclass(kind=None, /, **options):
         """As `dataclasses.dataclass`, without `slots`: the class is completed when one of its methods is first asked for."""
         if kind is None:
@@ -294,12 +310,10 @@ if not TYPE_CHECKING:
 
         def make():
             with _MAKING:
-                for name, stub in stubs.items():
-                    if vars(kind).get(name) is stub:
-                        type.__delattr__(kind, name)
                 if stubs:
+                    own = {name: value for name, value in vars(kind).items() if stubs.get(name, _MAKING) is not value}
                     stubs.clear()
-                    dataclasses.dataclass(kind, **options)
+                    _complete(kind, own, options)
 
         for name in names.union(("__hash__",) * (compared and frozen)).difference(vars(kind)):
             stubs[name] = _Unmade(name, make)

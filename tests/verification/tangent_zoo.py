@@ -68,10 +68,12 @@ def tangent_rests(name, coordinates):
 
 
 def _rests(name, coordinates):
-    """Each machine meets one of the rotation coordinates by default, in turn, so that all of these meet a third of the machines."""
-    if coordinates not in ROTATIONS:
+    """By default each element meets absolute coordinates and one of the others, in turn, so that all of these meet a part of the elements;
+    joints and machines meet relative ones as well, whose tree they are."""
+    if coordinates == "absolute" or (coordinates == "relative" and name not in force_zoo.ELEMENTS):
         return False
-    return list(ZOO).index(name) % len(ROTATIONS) != ROTATIONS.index(coordinates)
+    others = ROTATIONS if name not in force_zoo.ELEMENTS else ("relative", *ROTATIONS)
+    return list(ZOO).index(name) % len(others) != others.index(coordinates)
 
 
 # all machines and elements, by the coordinates of the motion

@@ -21,14 +21,20 @@ FLAGS = [
     "--use-gl=angle",
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
+    # the page around the picture is not put together by what draws the picture: with the processor that is a detour
+    "--disable-gpu-compositing",
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
     "--no-first-run",
 ]
-# pixels of a picture for one of the page, along both sides: with the processor it takes as long as it has pixels
-COARSE = "(ratio) => { const { world } = nivel.app; world.finest = world.ratio = ratio; world.resize() }"
-PIXELS = 0.4
+# pixels of a picture for one of the page, along both sides, and of a shadow: with the processor it takes as long as it has pixels
+COARSE = (
+    "([ratio, pixels]) => { const { world } = nivel.app, { shadow } = world.sun;"
+    "world.finest = world.ratio = ratio; shadow.mapSize.set(pixels, pixels); shadow.map?.dispose(); shadow.map = null;"
+    "world.resize() }"
+)
+PIXELS = [0.4, 256]
 LOCAL = ("file:", "data:", "blob:", "about:", "http://127.0.0.1:")
 
 

@@ -7,7 +7,6 @@ import pytest
 
 import nivel
 from browsing import drawn, watched
-from lanes import tail
 from nivel.view.package import from_bytes
 from nivel.view.page import write_scene
 from nivel.view.playback import ALONE, playback
@@ -56,14 +55,15 @@ def test_every_example_is_here():
     assert set(FLEXIBLE) == set(MACHINES)
 
 
-@pytest.mark.parametrize("name", tail(BEAMS, ["slider-crank"]))
+@pytest.mark.parametrize("name", BEAMS)
 @pytest.mark.full
 def test_examples_of_beams_play_and_scrub(name, browser, tmp_path):
     result = nivel.load(EXAMPLES / "beams" / f"{name}.yaml").simulate(duration=BEAMS[name])
     assert_plays_and_scrubs(browser, result, tmp_path / "scene.html")
 
 
-@pytest.mark.parametrize("name", tail(FLEXIBLE, ["pendulum"]))
+@pytest.mark.parametrize("name", FLEXIBLE)
+@pytest.mark.full
 def test_examples_of_flexible_bodies_play_and_scrub(name, folder, browser, tmp_path):  # noqa: F811
     result = machine(folder, name).simulate(duration=FLEXIBLE[name])
     assert_plays_and_scrubs(browser, result, tmp_path / "scene.html")

@@ -119,12 +119,15 @@ class Curve:
     over="ignore", invalid="ignore"
 )  # what grew beyond all bounds has doubt that is no number, and is no warning
 def curve(time: Array, value: Array, rate: Array | None = None, second: Array | None = None) -> Curve:
-    """The curve of values (n,) or (n, m). rate, second : derivatives where they are known."""
-    value = value.reshape(len(time), -1)
+    """The curve of values (n,) or (n, m). rate, second : derivatives where they are known.
+
+    Of g pieces of one length, which have no jumps: times (n, g) and values (n, g, m), and all else in these shapes.
+    """
+    value = value.reshape(*time.shape, -1)
     rate, second = (None if each is None else each.reshape(value.shape) for each in (rate, second))
-    slope, h = rates(time, value) if rate is None else rate, np.diff(time)[:, None]
+    slope, h = rates(time, value) if rate is None else rate, np.diff(time, axis=0)[..., None]
     if len(time) < STENCIL:
-        few = np.zeros((max(len(time) - 1, 0), value.shape[1]))
+        few = np.zeros((max(len(time) - 1, 0), *value.shape[1:]))
         few += np.ptp(value, axis=0) if len(few) else 0.0
         few += 0.0 if rate is None else h * np.maximum(np.abs(slope[:-1]), np.abs(slope[1:]))
         return Curve(time, value, slope, few, few)
@@ -218,7 +221,7 @@ def quintic(share: float, h: Array, corners: tuple[Array, Array, Array, Array], 
 def rates(time: Array, value: Array) -> Array:
     """Rates (n, m) of the polynomials through STENCIL frames about each, which do not go over jumps."""
     out = np.zeros_like(value)
-    jumps = (np.flatnonzero(np.diff(time) <= 0.0) + 1).tolist()
+    jumps = (np.flatnonzero(np.diff(time) <= 0.0) + 1).tolist() if time.ndim == 1 else []
     for first, last in zip([0, *jumps], [*jumps, len(time)], strict=True):
         n = last - first
         width = min(STENCIL, n)
@@ -226,19 +229,22 @@ def rates(time: Array, value: Array) -> Array:
             begin = np.clip(np.arange(n) - width // 2, 0, n - width)
             place = first + begin[:, None] + np.arange(width)
             weights = _weights(time[place] - time[first:last, None], np.arange(n) - begin)
-            out[first:last] = np.einsum("kj,kjm->km", weights, value[place])
+            out[first:last] = np.einsum("kj...,kj...m->k...m", weights, value[place])
     return out
 
 
 def _weights(x: Array, at: NDArray[np.intp]) -> Array:
-    """Weights (n, k) of values at places x (n, k) in the derivative of the polynomial through them at the place `at` of each row."""
+    """Weights (n, k) of values at places x (n, k) in the derivative of the polynomial through them at the place `at` of each row; (n, k, g)
+    of g pieces."""
     out, rows = np.zeros_like(x), np.arange(len(x))
+    is_at = np.arange(x.shape[1])[:, None] == at
+    is_at = is_at if x.ndim == 2 else is_at[..., None]
     for j in range(x.shape[1]):
-        factors = np.ones(len(x))
+        factors = np.ones_like(x[:, j])
         for i in range(x.shape[1]):
             if i != j:
-                factors *= np.where(i == at, 1.0, -x[:, i]) / (x[:, j] - x[:, i])
-        out[:, j] = np.where(j == at, 0.0, factors)
+                factors *= np.where(is_at[i], 1.0, -x[:, i]) / (x[:, j] - x[:, i])
+        out[:, j] = np.where(is_at[j], 0.0, factors)
     out[rows, at] = -out.sum(axis=1)
     return out
 
@@ -253,7 +259,7 @@ def _rates_of_others(time: Array, value: Array) -> Array:
 
 def _missed(time: Array, value: Array, rate: Array) -> Array:
     """(n, m) by how much each frame is apart from the cubic over its neighbours; the first and the last frame as theirs."""
-    h = (time[2:] - time[:-2])[:, None]
-    share = np.divide((time[1:-1] - time[:-2])[:, None], h, out=np.zeros_like(h), where=h > 0.0)
+    h = (time[2:] - time[:-2])[..., None]
+    share = np.divide((time[1:-1] - time[:-2])[..., None], h, out=np.zeros_like(h), where=h > 0.0)
     inner = np.abs(value[1:-1] - hermite(share, h, value[:-2], value[2:], rate[:-2], rate[2:]))
     return np.concatenate([inner[:1], inner, inner[-1:]])

@@ -69,16 +69,14 @@ def steps_of(pace: Array, duration: float, step: float | None, corners: tuple[fl
     taken = np.where(np.isfinite(pace[LEAST]), pace[LEAST], part)
     count = np.clip(np.ceil(part / taken), 1, MOST_IN_PART).astype(int)
     # a step longer than a part begins where the one before it ends
-    grid = [np.linspace(k * part, (k + 1) * part, count[k], endpoint=False) for k in range(PARTS)]
-    times, last = [], 0.0
-    for k, inside in enumerate(grid):
-        if count[k] > 1:
-            times.append(inside)
-            last = inside[-1]
-        elif not times or inside[0] >= last + taken[k] * (1.0 - 1e-9):
-            times.append(inside)
-            last = inside[0]
-    ends = np.unique(np.concatenate([*times, [t for t in corners if t < duration], [duration]]))
+    kept, last = list[int](), -np.inf
+    for k, (many, least) in enumerate(zip(count.tolist(), taken.tolist(), strict=True)):
+        if many > 1 or k * part >= last + least * (1.0 - 1e-9):
+            kept.append(k)
+            last = (k + (many - 1) / many) * part
+    within = [np.arange(many) / many for many in count[kept].tolist()]
+    times = (np.repeat(kept, count[kept]) + np.concatenate(within)) * part
+    ends = np.unique(np.concatenate([times, [t for t in corners if t < duration], [duration]]))
     stride = -(-len(ends) // MOST_STEPS)
     return Steps(ends[:-1][::stride], np.diff(ends)[::stride])
 

@@ -15,7 +15,7 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.integrate.loop.run import EVERY, HORIZON, SHOWN, TIME, Run
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.output.observe import observe
-from nivel.results.curve import RATES, ROUNDED, STENCIL, TOLD, curve
+from nivel.results.curve import RATES, ROUNDED, STENCIL, TOLD, Curve, curve, hermite
 from nivel.system.layout import FrameLayout
 
 Array = NDArray[np.float64]
@@ -133,25 +133,45 @@ class Probes:
             return
         probes = np.array(ready)
         place = np.searchsorted(time, probes[:, 0])
-        dense = place[-1] - place[0] <= NEAR * len(ready)
-        for group in [slice(None)] if dense else [slice(k, k + 1) for k in range(len(ready))]:
-            near = self._frames[max(0, place[group][0] - NEAR // 2) : place[group][-1] + NEAR // 2]
-            self._hold(near, probes[group])
+        if place[-1] - place[0] <= NEAR * len(ready):
+            self._hold(self._frames[max(0, place[0] - NEAR // 2) : place[-1] + NEAR // 2], probes)
+            return
+        # pieces about each probe, those that are whole and without a jump together
+        pieces = place + np.arange(-NEAR // 2, NEAR // 2)[:, None]
+        whole = (pieces[0] >= 0) & (pieces[-1] < len(time))
+        whole[whole] = np.all(np.diff(time[pieces[:, whole]], axis=0) > 0.0, axis=0)
+        if whole.any():
+            self._hold(self._frames[pieces[:, whole]], probes[whole])
+        for k in np.flatnonzero(~whole):
+            self._hold(self._frames[max(0, place[k] - NEAR // 2) : place[k] + NEAR // 2], probes[k : k + 1])
 
     @np.errstate(over="ignore", invalid="ignore")
     def _hold(self, near: Array, probes: Array) -> None:
-        """Compare some (k, width). What is between the four frames next to one is no more than a jump."""
-        time, place = probes[:, 0], np.searchsorted(near[:, 0], probes[:, 0])
+        """Compare some (k, width) with a curve through frames (n, width), or each in the middle of its own (n, k, width). What is between
+        the four frames next to one is no more than a jump."""
+        time, together = probes[:, 0], near.ndim == 2
+        place = np.searchsorted(near[:, 0], time) if together else np.full(len(time), NEAR // 2)
         inside = (place > 0) & (place < len(near))
-        beside = near[np.clip(place[:, None] + np.arange(-2, 2), 0, len(near) - 1)]
-        beyond = np.maximum(probes - beside.max(axis=1), beside.min(axis=1) - probes)
-        for columns, rate in ((self._known, near[:, self._rate]), (~self._known, None)):
-            of = curve(near[:, 0], near[:, columns], rate)
+        where = np.clip(place + np.arange(-2, 2)[:, None], 0, len(near) - 1)
+        beside = near[where] if together else near[where[:, 0]]
+        beyond = np.maximum(probes - beside.max(axis=0), beside.min(axis=0) - probes)
+        for columns, rate in ((self._known, near[..., self._rate]), (~self._known, None)):
+            of = curve(near[..., 0], near[..., columns], rate)
+            value, doubt = (of.at(time), of.doubt_at(time)) if together else _in_the_middle(of, time)
             # the doubt of so few frames that no polynomial goes through them is none that is known better than by probes
-            doubt = of.doubt_at(time) if len(near) >= STENCIL else 0.0
-            off = np.minimum(np.abs(of.at(time) - probes[:, columns]) - doubt, beyond[:, columns])
+            doubt = doubt if len(near) >= STENCIL else 0.0
+            off = np.minimum(np.abs(value - probes[:, columns]) - doubt, beyond[:, columns])
             off = np.max(np.nan_to_num(off[inside]), axis=0, initial=0.0)
             self.off[columns] = np.maximum(self.off[columns], off)
+
+
+def _in_the_middle(of: Curve, time: Array) -> tuple[Array, Array]:
+    """Value and doubt (k, m) at one time in the middle interval of each of k pieces."""
+    k = NEAR // 2 - 1
+    step = of.time[k + 1] - of.time[k]
+    share = ((time - of.time[k]) / step)[:, None]
+    value = hermite(share, step[:, None], *(each[k] for each in of.corners))
+    return value, np.where((share > 0.0) & (share < 1.0), of.doubt[k], 0.0)
 
 
 def _rates(layout: FrameLayout) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:

@@ -24,6 +24,8 @@ from nivel import (
     SimulationSettings,
 )
 from nivel.cli.failures import fault_line
+from nivel.elements.contacts.contact import Material
+from nivel.elements.contacts.height_field import HeightField
 from nivel.elements.forces import FORCES
 from nivel.elements.joints import JOINTS
 from nivel.errors import ModelError
@@ -40,8 +42,6 @@ from nivel.machine.bodies.inertia import Inertia
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Mesh, Sphere, Tube
 from nivel.machine.core.orientation import SEQUENCES, Orientation
 from nivel.machine.core.record import field_words
-from nivel.machine.forces.contact import Material
-from nivel.machine.forces.height_field import HeightField
 from nivel.machine.laws.python_law import KEYS as LAW_KEYS
 from nivel.machine.laws.symbols import POINT_QUANTITIES, SENSOR_QUANTITIES, TURN_QUANTITIES
 from nivel.machine.settings.run import Baumgarte

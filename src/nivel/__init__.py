@@ -42,7 +42,7 @@ _NAMES = {
     "nivel.machine.bodies.body": "Body",
     "nivel.machine.control.block": "Block",
     "nivel.machine.core.marker": "Marker",
-    "nivel.machine.forces.contact": "Contact",
+    "nivel.elements.contacts.contact": "Contact",
     "nivel.machine.laws.time_function": "Expression PythonLaw Table",
     "nivel.machine.machine_record": "MachineRecord",
     "nivel.machine.settings.run": "Baumgarte SimulationSettings",

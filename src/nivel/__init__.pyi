@@ -11,6 +11,7 @@ from nivel.api import sweep as sweep
 from nivel.elements import circuits as hydraulics
 from nivel.elements import control as control
 from nivel.elements import forces as forces
+from nivel.elements.contacts.contact import Contact as Contact
 from nivel.elements.forces.actuators import Motor as Motor
 from nivel.elements.forces.actuators import Servo as Servo
 from nivel.elements.forces.actuators import Stop as Stop
@@ -48,7 +49,6 @@ from nivel.machine.beams.beam import Beam as Beam
 from nivel.machine.bodies.body import Body as Body
 from nivel.machine.control.block import Block as Block
 from nivel.machine.core.marker import Marker as Marker
-from nivel.machine.forces.contact import Contact as Contact
 from nivel.machine.laws.time_function import Expression as Expression
 from nivel.machine.laws.time_function import PythonLaw as PythonLaw
 from nivel.machine.laws.time_function import Table as Table

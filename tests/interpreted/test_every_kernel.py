@@ -365,7 +365,7 @@ def test_contacts_and_events(integrator):
 
 def test_contacts_of_all_shapes(monkeypatch):
     """Ellipsoids, capsules on parts of others, ground with heights, and spheres that cells find."""
-    monkeypatch.setattr("nivel.system.forces.heaps.MANY", 2)
+    monkeypatch.setattr("nivel.elements.contacts.heap.MANY", 2)
     egg = {"type": "ellipsoid", "semi_axes": [0.3, 0.2, 0.1]}
     bar, block = {"type": "capsule", "radius": 0.1, "length": 0.4}, {"type": "box", "size": [0.3, 0.3, 0.2]}
     ball, hills = {"type": "sphere", "radius": 0.1}, {"size": [2, 2], "function": "0.1*x^2", "points": [5, 5]}

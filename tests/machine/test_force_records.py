@@ -17,11 +17,11 @@ from nivel import (
     Stop,
     TorsionalSpringDamper,
 )
+from nivel.elements.contacts.contact import Material
 from nivel.elements.forces import FORCES
 from nivel.errors import ModelError
 from nivel.machine.beams.section import Material as BeamMaterial
 from nivel.machine.core.between import GlobalPoint
-from nivel.machine.forces.contact import Material
 
 LINE = {"markers": ("tip", "eye")}
 POINTS = {"bodies": ("rod", "crank"), "points": ((0, 0, 0), (1, 0, 0))}

@@ -95,6 +95,12 @@ class Kinds(Mapping[str, KindT], Generic[KindT]):
     def __getitem__(self, word: str) -> KindT:
         if word not in self._kinds and word in self.homes:
             self._import(self.homes[word])
+        if word not in self._kinds and word in self.homes:
+            # a record that others read stands alone, its kernels in other files of the folder
+            folder = self.homes[word].rpartition(".")[0]
+            for module in self._files:
+                if module.rpartition(".")[0] == folder:
+                    self._import(module)
         if word not in self._kinds:
             _ = self._all
         return self._kinds[word]

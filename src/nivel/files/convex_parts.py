@@ -13,6 +13,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.contacts.contact import ALL, MOST_PAIRS
 from nivel.errors import ModelError
 from nivel.extras import needed, require
 from nivel.files.apart import apart
@@ -20,7 +21,6 @@ from nivel.files.outline import section_of
 from nivel.files.tree import Tree
 from nivel.machine.bodies.shape import MOST_PARTS
 from nivel.machine.bodies.surface import surface_arrays, surface_text
-from nivel.machine.forces.contacts import ALL, MOST_PAIRS
 from nivel.native.store import folder, whole
 
 PARTS: Final = "parts"

@@ -18,11 +18,11 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.contacts.height_field import MOST
 from nivel.files.outline import SETS, section_of
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree
 from nivel.machine.core.record import unknown_word
-from nivel.machine.forces.height_field import MOST
 from nivel.machine.units.quantity import shown
 
 HEIGHTS: Final = "heights"

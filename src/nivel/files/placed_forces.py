@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from nivel.elements.contacts.contact import Contact
 from nivel.elements.forces.actuators import Motor, Servo, Stop
 from nivel.elements.forces.bushing import Bushing
 from nivel.elements.forces.drive_lines import Brake, Freewheel, TransmissionLoss
@@ -21,7 +22,6 @@ from nivel.files.substitution import Linear, NotRepresentableError, mixed, negat
 from nivel.machine.core.between import Between, BetweenMany, Ends
 from nivel.machine.core.element import ForceElement
 from nivel.machine.core.record import Record
-from nivel.machine.forces.contact import Contact
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table, TimeFunction
 
 Changes = dict[str, Any]

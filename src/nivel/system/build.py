@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 
 from nivel.elements.forces import FORCES
+from nivel.elements.forces.friction import rub_off
 from nivel.elements.joints.couplings import add_couplings
 from nivel.elements.joints.drivers import add_drivers
 from nivel.errors import located
 from nivel.kernels.bodies import rail
 from nivel.kernels.bodies.measure import measure
 from nivel.kernels.elements import friction
-from nivel.kernels.forces import friction_work
 from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.record import (
     BOTH,
@@ -165,7 +165,7 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
                 builder.coordinate(f"{joint.name}.{name}")
     sensed, acting = nivel.system.circuit_elements.sensed_and_acting(machine) if machine.hydraulics else ([], [])
     # what reads or computes signals, each after what it reads; all other elements follow, last what reads their outputs
-    builder.elements.order((read_inputs, *sensed, compute, *acting), (friction_work.apply,))
+    builder.elements.order((read_inputs, *sensed, compute, *acting), (rub_off,))
     return builder, rows
 
 

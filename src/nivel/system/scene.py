@@ -43,6 +43,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from nivel.elements.contacts.contact import Contact
+from nivel.elements.contacts.height_field import ground_surface
 from nivel.elements.forces import Force
 from nivel.elements.forces.ropes import Rope, first_wheel, way_around
 from nivel.elements.forces.shafts import BeltDrive
@@ -59,12 +61,10 @@ from nivel.machine.bodies.shape import Box, Ellipsoid, Extrusion, Mesh, Shape, S
 from nivel.machine.bodies.solids import box_size, length, mesh_surface
 from nivel.machine.bodies.surface import surface_text
 from nivel.machine.core.between import Between, BetweenMarkers
-from nivel.machine.forces.contact import Contact
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import find
 from nivel.system.builder import SystemBuilder
 from nivel.system.flexible import bending_bodies
-from nivel.system.forces.height_fields import ground_surface
 from nivel.system.joint_frames import as_placed, marker_place, slot_frame
 from nivel.system.section_outline import outline
 from nivel.system.system import System

@@ -193,9 +193,9 @@ def test_what_cells_find_is_what_all_pairs_give(monkeypatch):
     }
     sections = {"gravity": [0, 0, -G], "bodies": bodies, "forces": group}
     settings = {"integrator": "rk4", "step": 5e-5, "duration": 0.1, "output_interval": 0.01}
-    monkeypatch.setattr("nivel.system.forces.heaps.MANY", 10)
+    monkeypatch.setattr("nivel.elements.contacts.heap.MANY", 10)
     cells = simulate(sections, **settings)
-    monkeypatch.setattr("nivel.system.forces.heaps.MANY", 1000)
+    monkeypatch.setattr("nivel.elements.contacts.heap.MANY", 1000)
     pairs = simulate(sections, **settings)
     assert pairs.array("force.heap.count").sum() > 15
     np.testing.assert_array_equal(cells.array("force.heap.count"), pairs.array("force.heap.count"))

@@ -8,9 +8,9 @@ import pytest
 from scipy.linalg import expm
 
 import nivel
+from nivel.elements.contacts.height_field import HeightField
 from nivel.elements.forces.tyre import ACROSS, ALONG, CARCASS_TIME, SOFTER, TyreRow, fluidities, over_slip
 from nivel.errors import SolveError
-from nivel.machine.forces.height_field import HeightField
 from simulating import G, machine
 
 P, R, C, W = 4e3, 0.315, 190e3, 0.195

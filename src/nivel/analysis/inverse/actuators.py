@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 
 from nivel.elements.forces.actuators import Motor
+from nivel.elements.forces.drive_lines import holds_by_capacity
 from nivel.elements.forces.friction import Friction
 from nivel.errors import Fault, ModelError, refuse
 from nivel.lazy import dataclass
-from nivel.machine.forces.sticking import holds_by_capacity
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.inverse import InverseSettings
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown

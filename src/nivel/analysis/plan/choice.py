@@ -18,14 +18,13 @@ from collections.abc import Iterable
 from math import ceil
 
 from nivel.analysis.plan.modal_stiffness import goes_by_circuits, only_modes_are_stiff
+from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.elements.forces.actuators import Stop
+from nivel.elements.forces.drive_lines import is_sticking
 from nivel.elements.forces.friction import Friction
 from nivel.elements.joints import JOINTS
 from nivel.integrate.catalogue import INTEGRATORS, step_for
 from nivel.lazy import nivel
-from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.contacts import Contacts
-from nivel.machine.forces.sticking import is_sticking
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.uses.coordinate_reference import resolve

@@ -11,8 +11,10 @@ from nivel.analysis.curves.path import has_switches
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.progress.log import Listener
 from nivel.elements.circuits.phase import SLOPES
+from nivel.elements.contacts.contact import Contact
 from nivel.elements.control.units import UnitBlock
 from nivel.elements.forces import FORCES
+from nivel.elements.forces.drive_lines import is_sticking
 from nivel.elements.joints import JOINTS
 from nivel.errors import ModelError, NivelError
 from nivel.integrate.catalogue import all_facts
@@ -24,8 +26,6 @@ from nivel.kernels.signals.fmu import output as fmu_output
 from nivel.kernels.signals.functions import compute, rate_states, read_inputs
 from nivel.lazy import nivel, rich
 from nivel.machine.control.unit_output import CFacts, UnitFacts
-from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.sticking import is_sticking
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FLEXIBLE, FLOATING, IMPLICIT_ACCELERATIONS, PATHS
 from nivel.native import library
@@ -49,7 +49,7 @@ SENSOR, WATCH, SAMPLING = (
     "nivel.kernels.signals.watch",
     "nivel.kernels.signals.functions:sample",
 )
-HEIGHT_WAY = "nivel.kernels.forces.height_way"
+HEIGHT_WAY = "nivel.elements.contacts.height_way"
 GIVEN_FRICTION, RAIL = "nivel.kernels.residual.friction_residual", "nivel.kernels.bodies.rail"
 OF_BEAMS = "nivel.kernels.residual.beam_tangent"
 POINTS = "nivel.kernels.residual.point_inertia"

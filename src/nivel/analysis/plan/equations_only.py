@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Final
 
 from nivel.analysis.plan.choice import choose_coordinates
+from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.elements.forces.friction import Friction
-from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.contacts import Contacts
 from nivel.machine.machine_record import MachineRecord
 
 TRANSITION: Final = 1e-3  # [m/s] where no `friction_transition_speed` is given

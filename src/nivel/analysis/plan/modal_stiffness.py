@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 
 from nivel.elements.circuits.component import Component
+from nivel.elements.contacts.contact import Contact
 from nivel.elements.forces.hand import Hand
 from nivel.elements.forces.loads import PointForce, Torque
 from nivel.elements.forces.springs import JointSpringDamper
@@ -19,7 +20,6 @@ from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.bodies.shape import Box, Cylinder, Sphere
 from nivel.machine.core.element import ForceElement
-from nivel.machine.forces.contact import Contact
 from nivel.machine.laws.functions import functions_in
 from nivel.machine.laws.symbols import find_symbol
 from nivel.machine.laws.time_function import signals_of

@@ -19,6 +19,9 @@ from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.preparation import prepare
+from nivel.elements.contacts.contact import Contact, Contacts
+from nivel.elements.contacts.heap import spheres_between
+from nivel.elements.contacts.pairs import tangent_stiffness
 from nivel.elements.forces.actuators import Stop
 from nivel.elements.forces.ropes import Rope, length_of
 from nivel.elements.forces.shafts import BeltDrive, Shaft
@@ -27,12 +30,8 @@ from nivel.integrate.catalogue import INTEGRATORS
 from nivel.judge.during.growth import Fastest, fastest
 from nivel.lazy import dataclass, replace
 from nivel.machine.bodies.inertia import mass_properties
-from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.contacts import Contacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, resolve
-from nivel.system.forces.contacts import tangent_stiffness
-from nivel.system.forces.heaps import spheres_between
 from nivel.system.joint_frames import as_placed
 from nivel.system.states.relative import bodies_of
 from nivel.system.system import Array

@@ -12,6 +12,8 @@ from nivel.analysis.assembly.implicit import constraint_index
 from nivel.analysis.curves.corners import corners
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
+from nivel.elements.contacts import height_way, heights
+from nivel.elements.contacts.heights import rows_over_heights
 from nivel.integrate.explicit.dormand_prince import COUNTS as COUNTS_STIFF
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import (
@@ -51,7 +53,6 @@ from nivel.judge.after.checks.friction import STILL
 from nivel.judge.before.refusals import WHOLE
 from nivel.judge.during.lockup import can_be_asked
 from nivel.kernels.elements import friction as columns
-from nivel.kernels.forces import ground_contact, height_way
 from nivel.kernels.output.observe import observe
 from nivel.kernels.record.record import WATCH, Sampled
 from nivel.kernels.signals.functions import sample
@@ -59,7 +60,6 @@ from nivel.kernels.signals.watch import watch
 from nivel.kernels.solve.saddle import CONTRADICTORY, MOST_UNSETTLED
 from nivel.motion.direct import VISIBLE
 from nivel.system.elimination.partition import forget
-from nivel.system.forces.height_fields import rows_over_heights
 from nivel.system.signals.control import ONCE
 from nivel.system.signals.user_states import ratio_of
 from nivel.system.system import Array, System
@@ -294,7 +294,7 @@ def _watch(system: System, *, chosen: bool) -> int:
     if last > first:
         watched.followed[1:] = first, last
         system.record.hooks.address[WATCH] = height_way.watch.address
-        noted = [ground_contact.MISSED, ground_contact.SEEN]
+        noted = [heights.MISSED, heights.SEEN]
         system.record.elements.number[first:last, noted] = 0.0
     return count
 

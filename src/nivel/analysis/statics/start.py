@@ -16,10 +16,9 @@ from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.rigid_motions import of_whole
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
+from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.lazy import dataclass, replace
-from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.contacts import Contacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.statics import StaticsSettings
 from nivel.system.system import Array

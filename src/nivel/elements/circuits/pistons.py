@@ -16,10 +16,10 @@ from nivel.elements.circuits.ledger import DELIVERED
 from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import magnitude_within, ramp, step
 from nivel.elements.circuits.tangent import add_by_pressure, softness
+from nivel.elements.contacts.impact import impact, meet, part, slopes_of_impact
 from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real, tanh
 from nivel.kernels.core.status import OK
-from nivel.kernels.forces.impact import impact, meet, part, slopes_of_impact
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
@@ -56,7 +56,7 @@ STAGES = 4
 NODE_A, NODE_B = 1, 3
 FORCE, POWER, POSITION, SPEED, FRICTION = 0, 1, 2, 3, 4
 # columns of `number`: friction without pressure, by pressure [N/Pa], static over sliding, speeds of Stribeck's curve and of the change of
-# sign, viscous friction; stroke, stiffness of its ends, x of `nivel.kernels.forces.impact`
+# sign, viscous friction; stroke, stiffness of its ends, x of `nivel.elements.contacts.impact`
 COULOMB, SEAL, STATIC, STRIBECK, TRANSITION, VISCOUS, STROKE, STIFFNESS, LOSS = 1, 2, 3, 4, 5, 6, 7, 8, 9
 # pressure difference [Pa] below which the friction by pressure is rounded
 ROUNDED = 1e5

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 from nivel.elements.kind import Kind, Kinds, OneOf
 from nivel.machine.core.element import ForceElement
 
-FORCES: Final = Kinds[Kind](__name__, "nivel.system.forces", noun="force")
+FORCES: Final = Kinds[Kind](__name__, "nivel.elements.contacts", noun="force")
 
 if TYPE_CHECKING:
     Force = ForceElement

@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 from nivel.elements.kind import Kind, Kinds, OneOf
 from nivel.machine.core.element import ForceElement
 
-FORCES: Final = Kinds[Kind](__name__, "nivel.system.forces", noun="force")
+FORCES: Final = Kinds[Kind](__name__, "nivel.elements.contacts", noun="force")
 
 if TYPE_CHECKING:
     Force = ForceElement
 else:
     Force = Annotated[ForceElement, OneOf(FORCES)]
 
+from nivel.elements.contacts.contact import Contact as Contact
+from nivel.elements.contacts.contact import Contacts as Contacts
 from nivel.elements.forces.actuators import Motor as Motor
 from nivel.elements.forces.actuators import Servo as Servo
 from nivel.elements.forces.actuators import Stop as Stop
@@ -41,5 +43,3 @@ from nivel.elements.forces.springs import SpringDamper as SpringDamper
 from nivel.elements.forces.springs import ThreeAxisSpring as ThreeAxisSpring
 from nivel.elements.forces.springs import TorsionalSpringDamper as TorsionalSpringDamper
 from nivel.elements.forces.tyre import Tyre as Tyre
-from nivel.machine.forces.contact import Contact as Contact
-from nivel.machine.forces.contacts import Contacts as Contacts

@@ -6,14 +6,13 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, ClassVar, Literal
 
+from nivel.elements.contacts.impact import damping_of_restitution, impact
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, is_angle, of_effort, of_value
-from nivel.elements.restitution import damping_of_restitution
 from nivel.elements.rows import Row
 from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import maximum, real
 from nivel.kernels.core.status import OK
-from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import evaluate_function, evaluate_motion
 from nivel.kernels.record.hook import family
@@ -129,7 +128,7 @@ class Servo(ForceElement):
 
 
 class StopRow(Row):
-    """A stop on a COORDINATE; LOSS is x of `nivel.kernels.forces.impact`."""
+    """A stop on a COORDINATE; LOSS is x of `nivel.elements.contacts.impact`."""
 
     output: int
     coordinate: int
@@ -166,7 +165,7 @@ class ServoRow(Row):
 
 @family
 def stop(machine, number, t):
-    """Compliant surfaces at LOWER and UPPER, see `nivel.kernels.forces.impact`."""
+    """Compliant surfaces at LOWER and UPPER, see `nivel.elements.contacts.impact`."""
     record = record_at(machine)
     elements, coordinates, control = record.elements, record.coordinates, record.control
     followed = record.watched.followed[0]

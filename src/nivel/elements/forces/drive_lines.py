@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
+from nivel.elements.contacts.contact import Contact
+from nivel.elements.forces.friction import Friction
 from nivel.elements.forces.shafts import AT_HIGH, AT_LOW, KEPT, BeltRow, DriveLine, difference, pull_belt
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, is_angle, of_effort
@@ -263,6 +265,20 @@ def _refuse_another_loss(builder: SystemBuilder, force: TransmissionLoss) -> Non
             f"both: `efficiency: {first.efficiency * force.efficiency:g}`"
         )
         raise ModelError(Fault("", 0, 0, f"forces.{force.name}.coupling", message))
+
+
+def is_sticking(force: ForceElement) -> bool:
+    """Whether friction of the force can hold bodies at rest: its efforts are unknowns of the equations of motion."""
+    return (
+        (isinstance(force, Friction) and force.model == "stiction")
+        or (isinstance(force, Contact) and force.sticks)
+        or holds_by_capacity(force)
+    )
+
+
+def holds_by_capacity(force: ForceElement) -> bool:
+    """Whether it is an element of a drive train that can hold coordinates at rest: a brake, a clutch, a rigid freewheel, a loss."""
+    return isinstance(force, Brake | Clutch | TransmissionLoss) or (isinstance(force, Freewheel) and force.is_rigid)
 
 
 KINDS = (

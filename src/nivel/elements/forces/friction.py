@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, is_angle, of_effort
+from nivel.elements.rows import Row
 from nivel.elements.states import StateFact
 from nivel.kernels.bodies.coordinate import ALONG, CROSS_SECOND
 from nivel.kernels.bodies.patch_coordinate import PATCH
+from nivel.kernels.core.status import OK
 from nivel.kernels.elements import friction
-from nivel.kernels.forces import friction_work
-from nivel.kernels.record.record import NONE
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import (
     CoordinateDamping,
@@ -32,7 +34,7 @@ from nivel.machine.units.quantity import PositiveLength
 from nivel.machine.uses.coordinate_reference import CoordinateReference, kind_of, resolve
 
 if TYPE_CHECKING:
-    from nivel.machine.forces.contact import Contact
+    from nivel.elements.contacts.contact import Contact
     from nivel.system.builder import SystemBuilder
 
 
@@ -140,7 +142,26 @@ class Friction(ForceElement):
 
 
 # of a contact that is asked for it, behind its other outputs
-WORK = ("friction_work", "J", "work of friction that became heat since the start")
+class WorkRow(Row):
+    """Work of the friction of a contact since the start: a STATE that nothing depends on. POWER: output with its rate, or NONE where a
+    patch adds it, whose power is known behind all forces."""
+
+    output: int
+    state: int
+    power: int
+
+
+@family
+def rub_off(machine, number, t):
+    """Report the work of each contact, and add to its rate: these elements come last."""
+    record = record_at(machine)
+    elements, out = record.elements, record.outputs.value
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index = elements.columns[k]
+        out[index[WorkRow.OUTPUT]] = elements.state[index[WorkRow.STATE]]
+        if index[WorkRow.POWER] != NONE:
+            elements.state_rate[index[WorkRow.STATE]] += out[index[WorkRow.POWER]]
+    return OK
 
 
 def add_friction_work(builder: SystemBuilder, name: str, power: int) -> int:
@@ -148,7 +169,7 @@ def add_friction_work(builder: SystemBuilder, name: str, power: int) -> int:
     contact adds to the state. Returns the state."""
     fact = StateFact(f"{name}.friction_work", "J", f"work of friction of {name}", 0.0, 1.0, integral=True)
     state = builder.own_state(fact)
-    builder.elements.add(friction_work.apply, [builder.outputs.index(f"force.{name}.friction_work"), state, power])
+    builder.add(rub_off, WorkRow(output=builder.outputs.index(f"force.{name}.friction_work"), state=state, power=power))
     return state
 
 

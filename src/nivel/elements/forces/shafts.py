@@ -170,7 +170,7 @@ class ShaftRow(Row):
 def flank(depth, rate, stiffness, damping, remembered, followed):
     """(force, elastic force, 1 where it is remembered that the flank touches) at overlap `depth` and its `rate`; it never pulls.
 
-    followed : the flank touches or is apart as in the last accepted state, see `nivel.kernels.forces.impact`.
+    followed : the flank touches or is apart as in the last accepted state, see `nivel.elements.contacts.impact`.
     """
     nothing = 0.0 * depth
     if real(depth) <= 0.0 and not (followed == 1 and remembered > 0.0):

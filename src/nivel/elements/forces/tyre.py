@@ -27,6 +27,8 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import BeforeValidator
 
+from nivel.elements.contacts.height_field import HeightField
+from nivel.elements.contacts.heights import numbers_of, surface
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, of_force
 from nivel.elements.rows import Row, several
@@ -35,7 +37,6 @@ from nivel.kernels.algebra.analytic import absolute, arctan2, maximum, minimum, 
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.core.status import OK
 from nivel.kernels.elements.patch import axis, minus
-from nivel.kernels.forces.height_field import numbers_of, surface
 from nivel.kernels.forces.wrench import add_force_at, add_torque
 from nivel.kernels.record import function
 from nivel.kernels.record.function import evaluate_function
@@ -46,7 +47,6 @@ from nivel.machine.core.coefficient import NotNegativeNumber, PositiveForce, Pos
 from nivel.machine.core.element import Acts, ForceElement, Inequalities
 from nivel.machine.core.marker import MarkerPlace
 from nivel.machine.core.placement import marker_frame
-from nivel.machine.forces.height_field import HeightField
 from nivel.machine.given import Field, Maybe, OneNumber, OneRecord, TwoNumbers
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import PositiveLength, Quantity, listed

@@ -22,11 +22,11 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.elements.circuits.ledger import balance_mass, mass_apart
+from nivel.elements.contacts.impact import meet, part
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
 from nivel.integrate.rosenbrock.parts import LARGEST, step_in_parts
 from nivel.kernels.core.status import OK
-from nivel.kernels.forces.impact import meet, part
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import NONE, record_at
 from nivel.kernels.residual.shifted_matrix import factorise_shifted, find_parts, keep_multipliers, solve_shifted_parts

@@ -13,18 +13,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.contacts.contact import Contact, Contacts
+from nivel.elements.contacts.heap import spheres_between
+from nivel.elements.contacts.shapes import Hull, hull_of, hull_of_points, part_of
 from nivel.lazy import dataclass, scipy
 from nivel.machine.bodies.shape import Capsule, Ellipsoid, Sphere
 from nivel.machine.bodies.solids import length
 from nivel.machine.bodies.touching import Touching
 from nivel.machine.core.record import GROUND
 from nivel.machine.core.vectors import cross
-from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.contacts import Contacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, rotated
-from nivel.system.forces.heaps import spheres_between
-from nivel.system.forces.hulls import Hull, hull_of, hull_of_points, part_of
 
 Array = NDArray[np.float64]
 # speeds of frames differ by less where nothing happened between them

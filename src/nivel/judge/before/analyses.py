@@ -10,15 +10,14 @@ import numpy as np
 from nivel.analysis.assembly.equations import equations
 from nivel.analysis.assembly.freedoms import coordinate_derivatives, freedoms
 from nivel.analysis.preparation.preparation import Prepared
+from nivel.elements.contacts.contact import Contact
 from nivel.elements.control.units import UnitBlock
-from nivel.elements.forces.drive_lines import TransmissionLoss
+from nivel.elements.forces.drive_lines import TransmissionLoss, holds_by_capacity
 from nivel.elements.forces.friction import Friction
 from nivel.errors import Fault
 from nivel.judge.before.refusals import Refusal, faults_of, rolling
 from nivel.machine.control.order import PartOf, parts_of
 from nivel.machine.core.element import ForceElement
-from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.sticking import holds_by_capacity
 from nivel.machine.laws.symbols import find_in, follows_control, is_output
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.statics import StaticsSettings

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from nivel.elements.circuits.component import Component
+from nivel.elements.contacts.contact import Contact, Contacts
+from nivel.elements.contacts.heap import spheres_between
 from nivel.elements.forces.loads import PointForce
 from nivel.elements.joints.couplings import Coupling, FunctionCoupling
 from nivel.elements.joints.drivers import Driver
@@ -15,8 +17,6 @@ from nivel.machine.control.part import PartFunction
 from nivel.machine.control.unit_output import UnitOutput
 from nivel.machine.core.between import Between, BetweenMany, BetweenMarkers, End, Ends
 from nivel.machine.core.element import ForceElement
-from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.contacts import Contacts
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
@@ -28,7 +28,6 @@ from nivel.machine.signals.state import State
 from nivel.machine.units.formula import Formula
 from nivel.machine.units.linear_function import LinearFunction
 from nivel.machine.uses.coordinate_reference import resolve
-from nivel.system.forces.heaps import spheres_between
 
 
 def coupling_in_words(machine: MachineRecord, coupling: Coupling) -> str:

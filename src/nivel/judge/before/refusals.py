@@ -9,18 +9,16 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.redundancy import Redundancy
 from nivel.analysis.curves.corners import corners_of
 from nivel.analysis.plan.combinations import screws_as_couplings
+from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.elements.control.held import Delay
 from nivel.elements.forces.actuators import Stop
-from nivel.elements.forces.drive_lines import TransmissionLoss
+from nivel.elements.forces.drive_lines import TransmissionLoss, holds_by_capacity, is_sticking
 from nivel.elements.forces.friction import Friction
 from nivel.elements.joints.drivers import RATES
 from nivel.errors import Fault
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.lazy import dataclass
 from nivel.machine.core.element import ForceElement
-from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.contacts import Contacts
-from nivel.machine.forces.sticking import holds_by_capacity, is_sticking
 from nivel.machine.laws.functions import functions_in
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table

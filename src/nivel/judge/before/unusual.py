@@ -10,6 +10,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.contacts.contact import Contact
 from nivel.errors import ModelError
 from nivel.judge.finding import Finding
 from nivel.lazy import nivel
@@ -29,7 +30,6 @@ from nivel.machine.control.part import signals_read
 from nivel.machine.core.between import End
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import Record
-from nivel.machine.forces.contact import Contact
 from nivel.machine.given import Usual, usual_of
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.quantity import ANY, read_quantity

@@ -6,13 +6,12 @@ from collections.abc import Collection, Iterator, Mapping
 from contextlib import suppress
 from typing import Any, Final
 
+from nivel.elements.contacts.contact import HULLS, ROUND, SHAPES_ON_PLANE, Contact, Contacts
 from nivel.elements.joints import JOINTS
 from nivel.lazy import nivel
 from nivel.machine.bodies.point_masses import point_mass_faults
 from nivel.machine.core.index import SECTIONS, Index, Place, as_list, elements
 from nivel.machine.core.record import GROUND, Record, entry, unknown_word
-from nivel.machine.forces.contact import HULLS, ROUND, SHAPES_ON_PLANE, Contact
-from nivel.machine.forces.contacts import Contacts
 from nivel.machine.laws.symbols import UnknownSymbolError, find_in, outputs_of, paths_in, states_of, symbol_faults
 from nivel.machine.units.tree import Parameters
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, unknown_name

@@ -9,12 +9,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.judge.after.report import FRAMES, STEPS, Check
 from nivel.judge.after.subject import Equilibria, Motion, Run
 from nivel.judge.after.touching_pairs import Passed
 from nivel.lazy import dataclass
-from nivel.machine.forces.contact import Contact
-from nivel.machine.forces.contacts import Contacts
 from nivel.results.scales import Readable, machine_size
 from nivel.results.trust import Item, Threshold, number
 

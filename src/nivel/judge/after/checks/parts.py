@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.contacts.contact import Contacts
 from nivel.judge.after.checks.energy import BALANCE
 from nivel.judge.after.report import ESTIMATE, STEPS, Check
 from nivel.judge.after.subject import Run
@@ -16,7 +17,6 @@ from nivel.lazy import dataclass
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.bodies.shape import Sphere
 from nivel.machine.core.vectors import cross
-from nivel.machine.forces.contacts import Contacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, largest_mechanical_energy, rotated, speed_of_rest
 from nivel.results.trust import Item, Threshold, number, quantity

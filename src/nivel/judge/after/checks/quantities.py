@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.contacts.contact import Contact
 from nivel.judge.after.checks import friction
 from nivel.judge.after.flexible_bodies import MODAL, ModalBody, modal_bodies, point_ranges
 from nivel.judge.after.report import ESTIMATE, Check
 from nivel.judge.after.subject import Run
 from nivel.lazy import dataclass, replace
-from nivel.machine.forces.contact import Contact
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import ANY, constant_tree, read_quantity

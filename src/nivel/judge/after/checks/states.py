@@ -13,18 +13,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.contacts import heights
+from nivel.elements.contacts.contact import Contact
+from nivel.elements.contacts.heights import rows_over_heights
 from nivel.judge.after.report import FRAMES, Check, Need
 from nivel.judge.after.subject import Run
-from nivel.kernels.forces import ground_contact
 from nivel.lazy import dataclass, replace
 from nivel.machine.core.element import Acts, Holds
-from nivel.machine.forces.contact import Contact
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve
 from nivel.results.motion import peak
 from nivel.results.result import Result
 from nivel.results.trust import Item, number
-from nivel.system.forces.height_fields import rows_over_heights
 
 Array = NDArray[np.float64]
 SHOWN = 5  # elements of which each has a line
@@ -188,10 +188,10 @@ def passed_over(run: Run) -> Iterator[Contradiction]:
     names = [force.name for force in run.machine.forces if isinstance(force, Contact) and force.heights is not None]
     first, last = rows_over_heights(elements)
     for name, numbers in zip(names, elements.number[first:last], strict=True):
-        missed, seen = float(numbers[ground_contact.MISSED]), max(float(numbers[ground_contact.SEEN]), 0.0)
+        missed, seen = float(numbers[heights.MISSED]), max(float(numbers[heights.SEEN]), 0.0)
         if missed > DEEPER * seen + PLACE * run.scales.size:
             said = f"touches by {number(missed)} m between two steps, which do not see it,"
-            yield Contradiction(name, float(numbers[ground_contact.MISSED_AT]), said, 1)
+            yield Contradiction(name, float(numbers[heights.MISSED_AT]), said, 1)
 
 
 def look_at_sides(run: Run) -> list[Contradiction]:

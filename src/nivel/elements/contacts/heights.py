@@ -2,6 +2,9 @@
 
 Between the heights h is a cubic in x and in y by convolution (Keys 1981): its slopes are continuous, and it is exact for parabolas. Beyond
 the grid the heights of its border go on.
+
+Points of shapes touch it as they touch a plane (`nivel.elements.contacts.ground`). Each force is along the normal of the nearest place of
+the ground, and friction is across the mean of these normals, weighted by the forces.
 """
 
 from __future__ import annotations
@@ -10,11 +13,34 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from nivel.elements.contacts.ground import CYLINDER, KIND, SHAPE, ball_radius, end_sign, is_above, shape_point
+from nivel.elements.contacts.law import (
+    COUNT,
+    MARKER,
+    NORMAL,
+    NUMBERS,
+    OTHER,
+    POINT,
+    SPEED,
+    SUMS,
+    begin_contact,
+    needs_speed,
+    note_mean_speed,
+    press,
+    report_contact,
+    seen,
+    times,
+)
 from nivel.kernels.algebra.analytic import real
-from nivel.native.function import leaf, part
+from nivel.kernels.core.status import OK
+from nivel.kernels.elements.patch import axis, minus, plus
+from nivel.kernels.record.hook import FAMILIES, family
+from nivel.kernels.record.record import Elements, record_at
+from nivel.native.function import leaf, part, stage
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
 
 # numbers: counts of heights along x and y, the lengths between the outermost of them, a bound that no height passes, one of the second
 # derivative along any line by the squares of meshes [m]; then the heights, row by row along x, with one more on each side
@@ -212,3 +238,81 @@ def meshes(n, p, q):
     """Meshes from a place to another one along the side of which these are more."""
     x, y = (q[0] - p[0]) / n[WIDTH] * (n[ALONG] - 1.0), (q[1] - p[1]) / n[LENGTH] * (n[ACROSS] - 1.0)
     return max(np.abs(real(x)), np.abs(real(y)))
+
+
+# numbers of ground with heights, at first work of `nivel.elements.contacts.height_way`; END: a pose, MISSED: the deepest overlap [m] that
+# fixed steps have passed, MISSED_AT [s], and SEEN: the deepest at their ends
+END, MISSED, MISSED_AT, SEEN, GROUND = (NUMBERS + at for at in (0, 18, 19, 20, 21))
+
+
+@stage
+def normal_below(ground, B, o, c):
+    """Normal of the ground below c, global axes."""
+    d = seen(B, minus(c, o))
+    _, hx, hy, _, _, _ = surface(ground, d[0], d[1])
+    n = minus(axis(B, 2), plus(times(hx, axis(B, 0)), times(hy, axis(B, 1))))
+    return times(1.0 / np.sqrt(1.0 + hx * hx + hy * hy), n)
+
+
+@stage
+def ball_of(machine, k):
+    """Radius of the balls about the points of contact k, 0 of points."""
+    elements = record_at(machine).elements
+    columns = elements.columns[k]
+    return real(ball_radius(columns[KIND], elements.number[k, columns[SHAPE] :]))
+
+
+@stage
+def find_point_over_ground(machine, k, n):
+    """Where point n of contact k may touch and the normal there, left in the numbers; returns the overlap."""
+    record = record_at(machine)
+    markers, columns, numbers = record.markers, record.elements.columns[k], record.elements.number[k]
+    i, j, kind, size = columns[MARKER], columns[OTHER], columns[KIND], numbers[columns[SHAPE] :]
+    p, normal, ground = numbers[POINT:NORMAL], numbers[NORMAL:SPEED], numbers[GROUND:]
+    r, A, o, B = markers.r[i], markers.A[i], markers.r[j], markers.A[j]
+    below = axis(B, 2)
+    if kind == CYLINDER:
+        # the rim is lowest against the normal below its middle
+        below = normal_below(ground, B, o, plus(r, times(size[1] * end_sign(n, 8), axis(A, 2))))
+    shape_point(kind, A, r, size, n, below, p)
+    distance, n0, n1, n2, _, _, _ = from_heights(ground, seen(B, minus(p, o)))
+    radius = ball_radius(kind, size)
+    for a in range(3):
+        normal[a] = B[a, 0] * n0 + B[a, 1] * n1 + B[a, 2] * n2
+    if real(radius) > 0.0:
+        # the force acts on the ground
+        for a in range(3):
+            p[a] -= distance * normal[a]
+    return radius - distance
+
+
+@family
+def apply_over_heights(machine, number, t):
+    """All contacts with ground whose height varies."""
+    elements = record_at(machine).elements
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        numbers = elements.number[k]
+        begin_contact(machine, k, t)
+        if not is_above(machine, k, numbers[GROUND + HIGHEST]):
+            o = 0.0 * numbers[SUMS]
+            total = o, o, o
+            for n in range(elements.columns[k, COUNT]):
+                depth = find_point_over_ground(machine, k, n)
+                if needs_speed(machine, k, n, depth):
+                    note_mean_speed(machine, k)
+                total = plus(total, times(press(machine, k, n, depth, t), numbers[NORMAL:SPEED]))
+            squared = total[0] * total[0] + total[1] * total[1] + total[2] * total[2]
+            if real(squared) > 0.0:
+                size = np.sqrt(squared)
+                for a in range(3):
+                    numbers[NORMAL + a] = total[a] / size
+        report_contact(machine, k)
+    return OK
+
+
+def rows_over_heights(elements: Elements) -> tuple[int, int]:
+    """First element of contacts with ground that has heights, and one past the last."""
+    for address, (first, last) in zip(elements.address, elements.span, strict=True):
+        if FAMILIES.get(int(address)) is apply_over_heights:
+            return int(first), int(last)
+    return 0, 0

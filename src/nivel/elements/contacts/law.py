@@ -1,27 +1,84 @@
 """Law of contacts: what acts at a point where two surfaces touch, and what a contact reports.
 
-A pair of shapes (`ground_contact`, `round_contact`, `heap`) finds its points: place, normal from the
+A pair of shapes (`ground`, `rounds`, `ellipsoids`, `heights`, `heap`) finds its points: place, normal from the
 other body to this one, overlap, and where friction sticks the velocity of the point itself. The law is the same for all of them. Normal
-force: `nivel.kernels.forces.impact`, or a law of the user, which works from outside and never pulls. Friction of every point:
+force: `nivel.elements.contacts.impact`, or a law of the user, which works from outside and never pulls. Friction of every point:
 μ N tanh(v/v_s) against the sliding velocity of the bodies there; or that of a patch of all points, which sticks:
 `nivel.kernels.elements.patch`.
+
+The surface of a body may move over it, as a belt or a turntable: its velocity in axes of a marker there, and its spin about z through the
+marker's point, are functions.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from nivel.elements.contacts.contact import Contact, Contacts
+from nivel.elements.contacts.impact import damping_of_restitution, impact
 from nivel.kernels.algebra.analytic import maximum, real, tanh
-from nivel.kernels.algebra.spatial import dot
-from nivel.kernels.elements.moving_surface import NUMBERS as SURFACE_NUMBERS
-from nivel.kernels.elements.moving_surface import SPIN, SPIN_RATE, find_surface, surface_at, surface_rate_at
+from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.elements.patch import axis, leave_patch, middle_of, minus, plus, tangents, write_patch
 from nivel.kernels.elements.touch import DEPTH, FORCE, RATE, RUB, SLIP, leave_touch, write_touch
-from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.wrench import add_force_at
-from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.function import evaluate_function, evaluate_motion
 from nivel.kernels.record.record import NONE, record_at
-from nivel.native.function import stage
+from nivel.native.function import leaf, stage
+
+# columns; FUNCTIONS: the first of four, or NONE; SMOOTH: 1 where they are motions, whose rates are known; FRAME: the marker
+FUNCTIONS, SMOOTH, FRAME = 0, 1, 2
+# numbers: velocity at the marker's point and its rate, global axes; spin and its rate
+VELOCITY, CHANGE, SPIN, SPIN_RATE, SURFACE_NUMBERS = 0, 3, 6, 7, 8
+
+
+@stage
+def find_surface(machine, columns, n, t):
+    """Leave velocity, spin and their rates in the numbers; a rate that is not known counts as 0."""
+    record = record_at(machine)
+    frame = columns[FRAME]
+    A, W, o = record.markers.A[frame], record.bodies.omega[record.markers.body[frame]], 0.0 * n[SPIN]
+    for a in range(SURFACE_NUMBERS):
+        n[a] = o
+    for b in range(4):
+        if columns[SMOOTH] == 1:
+            value, rate, _ = evaluate_motion(machine, columns[FUNCTIONS] + b, t)
+        else:
+            value, rate = evaluate_function(machine, columns[FUNCTIONS] + b, t), 0.0
+        if b == 3:
+            n[SPIN], n[SPIN_RATE] = o + value, o + rate
+        else:
+            for a in range(3):
+                n[VELOCITY + a] += A[a, b] * value
+                n[CHANGE + a] += A[a, b] * rate
+    turning = cross(W, n[VELOCITY:CHANGE])
+    for a in range(3):
+        n[CHANGE + a] += turning[a]
+
+
+@leaf
+def times(s, x):
+    """s x of a 3-vector."""
+    return s * x[0], s * x[1], s * x[2]
+
+
+@stage
+def surface_at(machine, frame, n, p):
+    """Velocity of the surface over its body at p, global axes."""
+    markers = record_at(machine).markers
+    turning = cross(axis(markers.A[frame], 2), minus(p, markers.r[frame]))
+    return plus(n[VELOCITY:CHANGE], times(n[SPIN], turning))
+
+
+@stage
+def surface_rate_at(machine, frame, n, p, pdot):
+    """Its rate of change at a point that moves."""
+    record = record_at(machine)
+    markers = record.markers
+    z, W = axis(markers.A[frame], 2), record.bodies.omega[markers.body[frame]]
+    d = minus(p, markers.r[frame])
+    swept = plus(cross(cross(W, z), d), cross(z, minus(pdot, markers.rdot[frame])))
+    return plus(n[CHANGE:SPIN], plus(times(n[SPIN_RATE], cross(z, d)), times(n[SPIN], swept)))
+
 
 # columns of `columns`; MARKER, OTHER: of both shapes, or NONE in a heap; COUNT: points that may touch; LAW: of the normal force, or NONE;
 # PATCH: first friction of a patch, or NONE, AXES: how many it has, COORDINATE: the first of these; SURFACE: the columns of a surface that
@@ -269,3 +326,14 @@ def report_contact(machine, k):
         if columns[PATCH] != NONE:
             leave_patch(machine, np.int64(columns[PATCH]), np.int64(columns[AXES]), np.int64(columns[COORDINATE]))
         leave_touch(machine, first)
+
+
+def law_numbers(force: Contact | Contacts, stiffness: float | None, radius: float) -> list[float]:
+    """Numbers of the law, with a ball of this radius [m] about the marker of the shape."""
+    loss = damping_of_restitution(force.restitution) if force.restitution is not None else 0.0
+    if isinstance(force, Contact) and force.damping is not None:
+        loss = -force.damping
+    sticks = isinstance(force, Contact) and force.sticks
+    friction, transition = 0.0 if sticks else force.friction, force.friction_transition_speed or 1.0
+    numbers = [stiffness or 0.0, force.exponent, loss, friction, transition, radius]
+    return numbers + [0.0] * (NUMBERS - len(numbers))

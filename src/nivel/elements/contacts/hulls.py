@@ -1,4 +1,4 @@
-"""Contact of two convex hulls by their fields of pressure, see `nivel.kernels.forces.pressure_cells`.
+"""Contact of two convex hulls by their fields of pressure, see `nivel.elements.contacts.pressure_cells`.
 
 The elastic force of all pressures has a direction, the normal N of the contact. At every point the pressure is damped: p (1 + a v), v
 the speed along N at which the bodies approach there; it never pulls (Hunt & Crossley 1975). Friction: μ times the pressure along N, times
@@ -13,60 +13,134 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.elements.contacts.contact import Contact
+from nivel.elements.contacts.law import SURFACE_NUMBERS, find_surface, place_patch, velocity_at
+from nivel.elements.contacts.pressure_cells import (
+    along_plane,
+    bound_cap,
+    depth_under,
+    meet,
+    nearest_faces,
+    overlap_under,
+    whole,
+)
+from nivel.elements.contacts.shapes import Hull
 from nivel.kernels.algebra.analytic import maximum, minimum, real, tanh
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.core.status import OK
-from nivel.kernels.elements.moving_surface import find_surface
 from nivel.kernels.elements.patch import leave_patch, middle_of, plus
 from nivel.kernels.elements.touch import DEPTH, FORCE, RATE, leave_touch, write_touch
 from nivel.kernels.elements.touch import RUB as FRICTION_FORCE
 from nivel.kernels.elements.touch import SLIP as SLIP_SPEED
-from nivel.kernels.forces.contact_law import place_patch, velocity_at
-from nivel.kernels.forces.hull_pair import (
-    AXES,
-    BOX,
-    COORDINATE,
-    DAMPING,
-    FACES,
-    FIELD,
-    FRICTION,
-    MARKER,
-    MOVING,
-    NORMAL,
-    OTHER,
-    OTHER_FACES,
-    OTHER_RADIUS,
-    OUTPUT,
-    OVER,
-    PATCH,
-    PLANE,
-    PUSH,
-    PUSH_TORQUE,
-    RADIUS,
-    RUB,
-    RUB_TORQUE,
-    SHIFT,
-    SPEED,
-    SPIN,
-    SURFACE,
-    TRANSITION,
-    TURN,
-    find_faces,
-    least_overlap,
-    place_second,
-    places,
-    velocity,
-)
-from nivel.kernels.forces.pressure_cells import (
-    along_plane,
-    depth_under,
-    meet,
-    whole,
-)
 from nivel.kernels.forces.wrench import add_force_at, add_torque
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf, stage
+
+# columns of `columns`; MARKER, OTHER: axes of the two hulls; counts of their corners and faces; the patch as in
+# `nivel.elements.contacts.law`, and the surface; then EDGES of the first hull, two corners each, as many numbers as FIRST_EDGES says,
+# and those of the second
+OUTPUT, MARKER, OTHER, CORNERS, OTHER_CORNERS, FACES, OTHER_FACES, FIRST_EDGES, SECOND_EDGES = range(9)
+PATCH, AXES, COORDINATE, SURFACE, EDGES = 9, 10, 11, 12, 15
+# columns of `number`; TRANSITION: 0 where friction is that of a patch. Then work: place of the second hull in axes of the first, velocity
+# and angular velocity relative to the first at its origin, sums (normal force and its torque, friction and its torque, or what the patch is
+# made of), a box, a plane, the normal of the contact from first to second, velocity of the
+# second one's surface over it, the moving surface
+FIELD, DAMPING, FRICTION, TRANSITION, RADIUS, OTHER_RADIUS = range(6)
+TURN, SHIFT, SPEED, SPIN, PUSH, PUSH_TORQUE, RUB, RUB_TORQUE, BOX, PLANE, NORMAL = (
+    6, 15, 18, 21, 24, 27, 30, 33, 36, 42, 54,
+)  # fmt: skip
+# then the corners of the first hull (3 each), all faces (4 each), those of the second as seen from the first, which is work; corners
+# and faces of the second in its own axes; work: its corners as seen from the first, rows of the nearest faces, two polygons
+OVER, MOVING = 57, 60
+NUMBERS = MOVING + SURFACE_NUMBERS
+# The second hull is larger by this share of the sizes, so that of two faces in one plane the nearest is never in doubt.
+APART = 1e-13
+
+
+@leaf
+def places(columns):
+    """Where the corners of the first hull begin, all faces, corners and faces of the second in its axes, its corners, rows, polygons."""
+    first = NUMBERS
+    faces = first + 3 * np.int64(columns[CORNERS])
+    corners = faces + 4 * (np.int64(columns[FACES]) + np.int64(columns[OTHER_FACES]))
+    others = corners + 3 * np.int64(columns[OTHER_CORNERS])
+    seen = others + 4 * np.int64(columns[OTHER_FACES])
+    rows = seen + 3 * np.int64(columns[OTHER_CORNERS])
+    polygons = rows + np.int64(columns[FACES]) + np.int64(columns[OTHER_FACES])
+    return first, faces, corners, others, seen, rows, polygons
+
+
+@leaf
+def turn(A, x, y, z):
+    """A (x, y, z), A (9,) by rows."""
+    return (
+        A[0] * x + A[1] * y + A[2] * z,
+        A[3] * x + A[4] * y + A[5] * z,
+        A[6] * x + A[7] * y + A[8] * z,
+    )
+
+
+@leaf
+def place_second(columns, n):
+    """Corners and faces of the second hull in the axes of the first."""
+    _, faces, corners, others, seen, _, _ = places(columns)
+    A = n[TURN:SHIFT]
+    for k in range(columns[OTHER_CORNERS]):
+        p, q = corners + 3 * k, seen + 3 * k
+        x, y, z = turn(A, n[p], n[p + 1], n[p + 2])
+        n[q], n[q + 1], n[q + 2] = n[SHIFT] + x, n[SHIFT + 1] + y, n[SHIFT + 2] + z
+    apart = APART * (n[RADIUS] + n[OTHER_RADIUS])
+    for k in range(columns[OTHER_FACES]):
+        p, q = others + 4 * k, faces + 4 * (np.int64(columns[FACES]) + k)
+        x, y, z = turn(A, n[p], n[p + 1], n[p + 2])
+        n[q], n[q + 1], n[q + 2] = x, y, z
+        n[q + 3] = n[p + 3] + apart + x * n[SHIFT] + y * n[SHIFT + 1] + z * n[SHIFT + 2]
+
+
+@leaf
+def velocity(n, x, y, z):
+    """Velocity relative to the first hull of the point of the second one at (x, y, z)."""
+    return (
+        n[SPEED] + n[SPIN + 1] * z - n[SPIN + 2] * y,
+        n[SPEED + 1] + n[SPIN + 2] * x - n[SPIN] * z,
+        n[SPEED + 2] + n[SPIN] * y - n[SPIN + 1] * x,
+    )
+
+
+@leaf
+def least_overlap(columns, n):
+    """(overlap along the normal of the face under which the other hull is least deep, its rate, the row of that face). Negative: apart."""
+    first, faces, _, _, seen, _, _ = places(columns)
+    least, face, corner, own = overlap_under(n, faces, seen, columns[OTHER_CORNERS])[0] + np.inf, faces, seen, True
+    for k in range(np.int64(columns[FACES]) + np.int64(columns[OTHER_FACES])):
+        of_first = k < columns[FACES]
+        overlap, at = overlap_under(
+            n,
+            faces + 4 * k,
+            seen if of_first else first,
+            columns[OTHER_CORNERS] if of_first else columns[CORNERS],
+        )
+        if real(overlap) < real(least):
+            least, face, corner, own = overlap, faces + 4 * k, at, of_first
+    v0, v1, v2 = velocity(n, n[corner], n[corner + 1], n[corner + 2])
+    rate = n[face] * v0 + n[face + 1] * v1 + n[face + 2] * v2
+    return least, -rate if own else rate, face
+
+
+@leaf
+def find_faces(columns, n, face):
+    """The box that holds the overlap, and rows of the faces that may be nearest in it, which it returns the number of."""
+    first, faces, _, _, seen, rows, _ = places(columns)
+    ends, size = EDGES + np.int64(columns[FIRST_EDGES]), real(n[RADIUS]) + real(n[OTHER_RADIUS])
+    count = np.int64(columns[FACES]) + np.int64(columns[OTHER_FACES])
+    if face < faces + 4 * np.int64(columns[FACES]):
+        edges = columns[ends : ends + np.int64(columns[SECOND_EDGES])]
+        bound_cap(n, face, seen, columns[OTHER_CORNERS], edges, size, n[BOX:PLANE])
+    else:
+        bound_cap(n, face, first, columns[CORNERS], columns[EDGES:ends], size, n[BOX:PLANE])
+    return nearest_faces(n, faces, count, n[BOX:PLANE], n[rows : rows + count])
+
 
 # what polygons are asked for
 STORE, PRESS, RUB_ALONG = 0, 1, 2
@@ -414,3 +488,25 @@ def apply(machine, number, t):
             n[PUSH + a] += n[RUB + a]
         out[first], out[first + 1] = length_of(n, PUSH), power
     return OK
+
+
+def row_of(hulls: tuple[Hull, Hull], force: Contact, patch: list[int]) -> tuple[list[int], list[float]]:
+    """Columns behind the markers, and numbers, of a contact with this patch: see above."""
+    first, second = hulls
+    counts = (
+        [len(each.corners) for each in hulls]
+        + [len(each.faces) for each in hulls]
+        + [each.edges.size for each in hulls]
+    )
+    modulus = force.foundation_modulus or 0.0
+    speed = 0.0 if force.sticks else force.friction_transition_speed or 1.0
+    # pressure of both bodies at the same depth: half the overlap each
+    numbers = [2.0 * modulus, force.damping or 0.0, force.friction, speed, first.radius, second.radius]
+    numbers += [0.0] * (NUMBERS - len(numbers))
+    numbers += [*first.corners.ravel(), *first.faces.ravel(), *np.zeros(second.faces.size)]
+    numbers += [*second.corners.ravel(), *second.faces.ravel(), *np.zeros(second.corners.size)]
+    faces = len(first.faces) + len(second.faces)
+    numbers += [0.0] * (faces + 4 * (faces + 4))
+    return [*counts, *patch, *first.edges.ravel().tolist(), *second.edges.ravel().tolist()], [
+        float(each) for each in numbers
+    ]

@@ -1,21 +1,15 @@
-"""Points of shapes on ground, which is a plane or has heights, and of two spheres.
+"""Points of shapes on a plane, and of two spheres.
 
 A sphere and a capsule touch with the balls about their centre and their ends, a box and a hull with their corners. A cylinder touches with
 four points of each rim, the lowest one and those a quarter turn on, so it rolls on exact circles and stands on four feet. Of a ball the
-force acts on the ground. Over heights each force is along the normal of the nearest place of the ground, and friction is across the mean of
-these normals, weighted by the forces.
+force acts on the ground.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.algebra.analytic import real
-from nivel.kernels.algebra.spatial import cross, dot
-from nivel.kernels.core.status import OK
-from nivel.kernels.elements.moving_surface import times
-from nivel.kernels.elements.patch import axis, minus, plus
-from nivel.kernels.forces.contact_law import (
+from nivel.elements.contacts.law import (
     COLUMNS,
     COUNT,
     MARKER,
@@ -25,18 +19,19 @@ from nivel.kernels.forces.contact_law import (
     POINT,
     RADIUS,
     SPEED,
-    SUMS,
     begin_contact,
     is_apart,
     needs_speed,
-    note_mean_speed,
     note_speed,
     press,
     report_contact,
-    seen,
+    times,
     velocity_at,
 )
-from nivel.kernels.forces.height_field import HIGHEST, from_heights, surface
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.core.status import OK
+from nivel.kernels.elements.patch import axis, minus, plus
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf, stage
@@ -46,9 +41,6 @@ KIND, SHAPE = COLUMNS, COLUMNS + 1
 # kinds, and numbers of the shape: radius; half lengths; radius and half length; corners in its axes, three numbers each; radius and half
 # length
 SPHERE, BOX, CYLINDER, HULL, CAPSULE = 0, 1, 2, 3, 4
-# numbers of ground with heights, at first work of `nivel.kernels.forces.height_way`; END: a pose, MISSED: the deepest overlap [m] that
-# fixed steps have passed, MISSED_AT [s], and SEEN: the deepest at their ends
-END, MISSED, MISSED_AT, SEEN, GROUND = (NUMBERS + at for at in (0, 18, 19, 20, 21))
 # A cylinder whose axis is as near to the normal, by the square of the sine, stands.
 UPRIGHT = 1e-3
 # A shape is far from a plane if its ball is by this share of its radius: then the distance of the ball stands for that of all its points.
@@ -238,70 +230,5 @@ def apply_to_spheres(machine, number, t):
         if needs_speed(machine, k, 0, depth):
             note_speed(machine, k, speed_between_spheres(machine, k))
         press(machine, k, 0, depth, t)
-        report_contact(machine, k)
-    return OK
-
-
-@stage
-def normal_below(ground, B, o, c):
-    """Normal of the ground below c, global axes."""
-    d = seen(B, minus(c, o))
-    _, hx, hy, _, _, _ = surface(ground, d[0], d[1])
-    n = minus(axis(B, 2), plus(times(hx, axis(B, 0)), times(hy, axis(B, 1))))
-    return times(1.0 / np.sqrt(1.0 + hx * hx + hy * hy), n)
-
-
-@stage
-def ball_of(machine, k):
-    """Radius of the balls about the points of contact k, 0 of points."""
-    elements = record_at(machine).elements
-    columns = elements.columns[k]
-    return real(ball_radius(columns[KIND], elements.number[k, columns[SHAPE] :]))
-
-
-@stage
-def find_point_over_ground(machine, k, n):
-    """Where point n of contact k may touch and the normal there, left in the numbers; returns the overlap."""
-    record = record_at(machine)
-    markers, columns, numbers = record.markers, record.elements.columns[k], record.elements.number[k]
-    i, j, kind, size = columns[MARKER], columns[OTHER], columns[KIND], numbers[columns[SHAPE] :]
-    p, normal, ground = numbers[POINT:NORMAL], numbers[NORMAL:SPEED], numbers[GROUND:]
-    r, A, o, B = markers.r[i], markers.A[i], markers.r[j], markers.A[j]
-    below = axis(B, 2)
-    if kind == CYLINDER:
-        # the rim is lowest against the normal below its middle
-        below = normal_below(ground, B, o, plus(r, times(size[1] * end_sign(n, 8), axis(A, 2))))
-    shape_point(kind, A, r, size, n, below, p)
-    distance, n0, n1, n2, _, _, _ = from_heights(ground, seen(B, minus(p, o)))
-    radius = ball_radius(kind, size)
-    for a in range(3):
-        normal[a] = B[a, 0] * n0 + B[a, 1] * n1 + B[a, 2] * n2
-    if real(radius) > 0.0:
-        # the force acts on the ground
-        for a in range(3):
-            p[a] -= distance * normal[a]
-    return radius - distance
-
-
-@family
-def apply_over_heights(machine, number, t):
-    """All contacts with ground whose height varies."""
-    elements = record_at(machine).elements
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        numbers = elements.number[k]
-        begin_contact(machine, k, t)
-        if not is_above(machine, k, numbers[GROUND + HIGHEST]):
-            o = 0.0 * numbers[SUMS]
-            total = o, o, o
-            for n in range(elements.columns[k, COUNT]):
-                depth = find_point_over_ground(machine, k, n)
-                if needs_speed(machine, k, n, depth):
-                    note_mean_speed(machine, k)
-                total = plus(total, times(press(machine, k, n, depth, t), numbers[NORMAL:SPEED]))
-            squared = total[0] * total[0] + total[1] * total[1] + total[2] * total[2]
-            if real(squared) > 0.0:
-                size = np.sqrt(squared)
-                for a in range(3):
-                    numbers[NORMAL + a] = total[a] / size
         report_contact(machine, k)
     return OK

@@ -1,4 +1,4 @@
-"""Heights of ground that is not flat, on a grid over a plane."""
+"""Heights of ground that is not flat, on a grid over a plane: the record, and its triangles."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, ValidationInfo
 
+from nivel.machine.bodies.surface import Triangles
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.given import Field, ManyRows, Maybe, TwoNumbers
 from nivel.machine.laws.time_function import check_varying
@@ -207,3 +208,15 @@ def _values_of(function: str, size: tuple[float, float], points: tuple[int, int]
     out = np.array([[evaluate(tree, values={"x": float(a), "y": float(b)}) for a in x] for b in y])
     out.setflags(write=False)
     return out
+
+
+def ground_surface(field: HeightField) -> tuple[NDArray[np.float64], Triangles]:
+    """vertices (n, 3) [m] in the axes of the plane's marker and triangles (m, 3), seen from above counter-clockwise."""
+    heights = field.heights
+    rows, columns = heights.shape
+    x, y = (np.linspace(-0.5, 0.5, n) * side for n, side in zip((columns, rows), field.size, strict=True))
+    vertices = np.stack([*np.meshgrid(x, y), heights], axis=2).reshape(-1, 3)
+    corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
+    first = np.stack([corner, corner + 1, corner + columns + 1], axis=1)
+    second = np.stack([corner, corner + columns + 1, corner + columns], axis=1)
+    return vertices, np.concatenate([first, second]).astype(np.uint32)

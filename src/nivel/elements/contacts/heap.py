@@ -1,19 +1,19 @@
 """Contact of many spheres, each with each other and with planes, in one element.
 
-Every pair has the force of `nivel.kernels.forces.impact` and friction μ N tanh(v/v_s). Pairs are taken in an order that follows from the
+Every pair has the force of `nivel.elements.contacts.impact` and friction μ N tanh(v/v_s). Pairs are taken in an order that follows from the
 places alone, so that sums do not depend on the way. Of few spheres all pairs are looked at, of many those in cells side by side: cubes of a
 grid that are larger than the largest sphere. Then a step costs as much for each sphere, however many there are.
 """
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from nivel.kernels.algebra.analytic import real
-from nivel.kernels.algebra.spatial import dot
-from nivel.kernels.core.status import OK
-from nivel.kernels.elements.patch import axis, minus
-from nivel.kernels.forces.contact_law import (
+from nivel.elements.contacts.contact import WORK, Contacts
+from nivel.elements.contacts.ground import find_point_of_spheres
+from nivel.elements.contacts.law import (
     COLUMNS,
     LOST,
     NORMAL,
@@ -25,13 +25,26 @@ from nivel.kernels.forces.contact_law import (
     STIFFNESS,
     SUMS,
     begin_contact,
+    law_numbers,
     meets,
     push,
 )
-from nivel.kernels.forces.ground_contact import find_point_of_spheres
+from nivel.elements.forces.friction import add_friction_work, rub_off
+from nivel.elements.kind import Kind
+from nivel.elements.output import add_outputs
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.spatial import dot
+from nivel.kernels.core.status import OK
+from nivel.kernels.elements.patch import axis, minus
 from nivel.kernels.record.hook import family
-from nivel.kernels.record.record import record_at
+from nivel.kernels.record.record import NONE, record_at
+from nivel.machine.bodies.shape import Sphere
 from nivel.native.function import leaf, part, stage
+
+if TYPE_CHECKING:
+    from nivel.machine.machine_record import MachineRecord
+    from nivel.system.builder import SystemBuilder
+
 
 # columns of the pair; then the markers of the spheres and those of the planes
 SPHERES, PLANES, FIRST = COLUMNS, COLUMNS + 1, COLUMNS + 2
@@ -232,3 +245,41 @@ def apply(machine, number, t):
         out[first + DEPTH], out[first + FORCE], out[first + RUB] = deepest, force, rub
         out[first + LOST_POWER] = numbers[LOST]
     return OK
+
+
+# From so many spheres on pairs are found by cells, which are so many times as large as the largest sphere.
+MANY, LARGER = 128, 1.25
+
+
+def spheres_between(machine: MachineRecord, force: Contacts) -> list[str]:
+    """Names of the bodies that touch each other."""
+    return list(force.between) or [body.name for body in machine.bodies if isinstance(body.shape, Sphere)]
+
+
+def add_contacts(builder: SystemBuilder, force: Contacts) -> None:
+    """One row for all pairs, with a place to remember for each: of every sphere those with the planes, then with the spheres before it."""
+    first = add_outputs(builder, force, without=() if force.friction_work else (WORK,))
+    if force.friction_work:
+        add_friction_work(builder, force.name, first + LOST_POWER)
+    names = spheres_between(builder.machine, force)
+    markers, radii = [], []
+    for name in names:
+        shape = builder.machine.body_named[name].shape
+        assert isinstance(shape, Sphere)  # the record was checked
+        markers.append(builder.place((name, np.array(shape.centre or (0.0, 0.0, 0.0), dtype=float), np.eye(3))))
+        radii.append(shape.radius)
+    planes = [builder.end(plane) for plane in force.planes]
+    numbers = law_numbers(force, force.stiffness, 0.0)
+    cell, size = LARGER * 2.0 * max(radii), 0
+    if len(names) >= MANY:
+        size = 1 << (2 * len(names) - 1).bit_length()
+    numbers += [cell, cell - 2.0 * max(radii), size, 0.0, *radii]
+    if size:
+        numbers += [0.0] * (size + (4 + KEPT_OF_EACH) * len(names))
+    places = len(names) * len(planes) + len(names) * (len(names) - 1) // 2
+    law = [first, NONE, NONE, 0, NONE, NONE, 0, 0, NONE, 0, NONE]
+    columns = [*law, len(names), len(planes), *markers, *planes]
+    builder.elements.add(apply, columns, [float(number) for number in numbers], places, tuple(range(places)))
+
+
+KINDS = (Kind(Contacts, add_contacts, (apply, rub_off)),)

@@ -1,21 +1,27 @@
-"""Convex hulls in numbers: corners, faces and edges; and the row of two of them for the contact kernel."""
+"""Shapes that touch in numbers: their markers, balls that hold them, corners, and convex hulls."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.contacts import ground, rounds
+from nivel.elements.contacts.contact import Contact
 from nivel.errors import Fault, ModelError
-from nivel.kernels.forces.hull_pair import NUMBERS
 from nivel.lazy import dataclass, scipy
-from nivel.machine.bodies.shape import Box, Cylinder, Extrusion, Mesh
+from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface, part_corners
 from nivel.machine.bodies.touching import Touching
 from nivel.machine.core.placement import frame_from_axes
-from nivel.machine.forces.contact import Contact
+
+if TYPE_CHECKING:
+    from nivel.system.builder import SystemBuilder
+
 
 Array = NDArray[np.float64]
 # Triangles whose normals agree to this are one face.
@@ -139,28 +145,6 @@ def _edges(corners: Array, faces: Array) -> NDArray[np.int64]:
     return np.argwhere(np.triu(common >= 2, 1))
 
 
-def row_of(hulls: tuple[Hull, Hull], force: Contact, patch: list[int]) -> tuple[list[int], list[float]]:
-    """Columns behind the markers, and numbers, of a contact with this patch: see `nivel.kernels.forces.hull_pair`."""
-    first, second = hulls
-    counts = (
-        [len(each.corners) for each in hulls]
-        + [len(each.faces) for each in hulls]
-        + [each.edges.size for each in hulls]
-    )
-    modulus = force.foundation_modulus or 0.0
-    speed = 0.0 if force.sticks else force.friction_transition_speed or 1.0
-    # pressure of both bodies at the same depth: half the overlap each
-    numbers = [2.0 * modulus, force.damping or 0.0, force.friction, speed, first.radius, second.radius]
-    numbers += [0.0] * (NUMBERS - len(numbers))
-    numbers += [*first.corners.ravel(), *first.faces.ravel(), *np.zeros(second.faces.size)]
-    numbers += [*second.corners.ravel(), *second.faces.ravel(), *np.zeros(second.corners.size)]
-    faces = len(first.faces) + len(second.faces)
-    numbers += [0.0] * (faces + 4 * (faces + 4))
-    return [*counts, *patch, *first.edges.ravel().tolist(), *second.edges.ravel().tolist()], [
-        float(each) for each in numbers
-    ]
-
-
 def polytope_of(body: Touching, part: int | None) -> list[float]:
     """Counts of corners, faces and edges, then these, in the axes of the body's marker."""
     hull = hull_of(body, part)
@@ -180,3 +164,95 @@ def polytope_of(body: Touching, part: int | None) -> list[float]:
 
 def _fault(body: Touching, said: str) -> ModelError:
     return ModelError(Fault("", 0, 0, body.place, said))
+
+
+MOST_CORNERS = 1000
+
+
+def ball_of_shape(body: Touching) -> float:
+    """[m] radius of a ball about the marker of a shape that holds it."""
+    match body.shape:
+        case Sphere():
+            return body.shape.radius
+        case Box():
+            return 0.5 * math.hypot(*box_size(body.shape))
+        case Cylinder():
+            return math.hypot(body.shape.radius, 0.5 * length(body.shape))
+        case Capsule():
+            return body.shape.radius + 0.5 * length(body.shape)
+        case Ellipsoid():
+            return max(body.shape.semi_axes)
+        case Extrusion() | Mesh():
+            return float(np.linalg.norm(corners_of(body), axis=1).max())
+    raise ValueError(f"{body.name} has no shape that can touch")
+
+
+def ground_shape(body: Touching, corners: Callable[[Touching], NDArray[np.float64]]) -> tuple[int, int, list[float]]:
+    """Kind, number of points and numbers of a shape for `nivel.elements.contacts.ground`; `corners` of an extrusion or a mesh."""
+    match body.shape:
+        case Sphere():
+            return ground.SPHERE, 1, [body.shape.radius]
+        case Box():
+            return ground.BOX, 8, [0.5 * side for side in box_size(body.shape)]
+        case Cylinder():
+            return ground.CYLINDER, 8, [body.shape.radius, 0.5 * length(body.shape)]
+        case Capsule():
+            return ground.CAPSULE, 2, [body.shape.radius, 0.5 * length(body.shape)]
+        case Extrusion() | Mesh():
+            found = corners(body)
+            return ground.HULL, len(found), found.ravel().tolist()
+    raise ValueError(f"{body.name} has no shape that can touch")
+
+
+def corners_of(body: Touching) -> NDArray[np.float64]:
+    """(n, 3) [m] corners of the convex hull of an extrusion or a mesh, in the frame of the shape: nothing else of it can touch a plane.
+
+    Raises ModelError where there are more than MOST_CORNERS.
+    """
+    assert isinstance(body.shape, Extrusion | Mesh)  # the record was checked
+    points = mesh_surface(body.shape)[0] if isinstance(body.shape, Mesh) else extrusion_corners(body.shape)
+    try:
+        corners = points[scipy.spatial.ConvexHull(points).vertices]
+    except scipy.spatial.QhullError:  # a flat mesh has no hull
+        corners = np.unique(points, axis=0)
+    if len(corners) > MOST_CORNERS:
+        message = (
+            f"the hull of the mesh has {len(corners)} corners, and at most {MOST_CORNERS} can touch a plane: give the body a coarser mesh; "
+            f"`looks` may still draw the fine one"
+        )
+        raise ModelError(Fault("", 0, 0, body.place, message))
+    return corners
+
+
+def corners_of_parts(body: Touching) -> NDArray[np.float64]:
+    """The same of all convex parts, each once: on ground that is not flat others than those of the hull may touch."""
+    if not isinstance(body.shape, Mesh) or body.shape.parts is None:
+        return corners_of(body)
+    parts = [hull_of(body, part + 1) for part in range(len(body.shape.parts))]
+    return np.unique(np.concatenate([each.corners + each.middle for each in parts]).round(9), axis=0)
+
+
+def distance_numbers(body: Touching, part: int | None) -> tuple[int, list[float]]:
+    """Kind and numbers of a shape for `nivel.elements.contacts.rounds`, in the axes of its marker."""
+    match body.shape:
+        case Box():
+            return rounds.BOX, [0.5 * side for side in box_size(body.shape)]
+        case Cylinder():
+            return rounds.CYLINDER, [body.shape.radius, 0.5 * length(body.shape)]
+        case Capsule():
+            return rounds.SEGMENT, [0.5 * length(body.shape)]
+        case Extrusion() | Mesh():
+            return rounds.HULL, polytope_of(body, part)
+    raise ValueError(f"{body.name} has no shape that can touch")
+
+
+def shape_marker(builder: SystemBuilder, body: Touching) -> int:
+    """Marker at the centre of the shape, z along a cylinder; at the frame of a hull, whose corners are given there."""
+    shape = body.shape
+    if isinstance(shape, Extrusion | Mesh):
+        return builder.place(body.at(np.zeros(3), np.eye(3)))
+    assert isinstance(shape, Sphere | Ellipsoid | Box | Cylinder | Capsule)  # the record was checked
+    axes = np.eye(3)
+    if isinstance(shape, Cylinder | Capsule):
+        axes = frame_from_axes(np.eye(3)["xyz".index(shape.along or "x")])
+    return builder.place(body.at(np.array(shape.centre or (0.0, 0.0, 0.0), dtype=float), axes))

@@ -1,4 +1,7 @@
-"""Signed distance of points, polytopes and other ellipsoids from an ellipsoid; negative where they overlap.
+"""Points of an ellipsoid on a plane, and of one with another convex shape.
+
+It touches at one point, as deep as its signed distance says, in the middle of the overlap. There a sphere and a capsule are a point and a
+segment with a radius, a plane is a polytope of one face. The distance is negative where they overlap.
 
 The distance φ of a point from a convex body is a convex function of the point, so its least value over a polytope stands at one place: in
 a face, on an edge or at a corner. In a face ∇φ is against the face's normal, so the place is that of the ellipsoid's support there.
@@ -10,9 +13,32 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.elements.contacts.law import (
+    NORMAL,
+    NUMBERS,
+    POINT,
+    SPEED,
+    begin_contact,
+    needs_speed,
+    note_mean_speed,
+    note_speed,
+    press,
+    report_contact,
+    seen,
+    velocity_at,
+)
+from nivel.elements.contacts.rounds import (
+    ends_of,
+    is_far,
+    note_place,
+)
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot
-from nivel.native.function import leaf, part
+from nivel.kernels.core.status import OK
+from nivel.kernels.elements.patch import axis, minus, plus
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
+from nivel.native.function import leaf, part, stage
 
 # numbers of a polytope: the counts of corners, faces and edges, then corners (3 each), faces (normal and distance, 4 each) and edges (6
 # each, both ends)
@@ -118,7 +144,7 @@ def nearest_on_edge(m, e, n):
 
 
 @leaf
-def seen(B, d):
+def into(B, d):
     """Bᵀ d."""
     return (
         B[0] * d[0] + B[3] * d[1] + B[6] * d[2],
@@ -141,7 +167,7 @@ def turned(B, d):
 def support(B, a, n):
     """(h, x): h = √(nᵀ M n) and the point x = M n/h of an ellipsoid about the origin, farthest along the unit vector n; its axes are the
     columns of B."""
-    g = seen(B, n)
+    g = into(B, n)
     g0, g1, g2 = a[0] * g[0], a[1] * g[1], a[2] * g[2]
     h = np.sqrt(g0 * g0 + g1 * g1 + g2 * g2)
     return h, turned(B, (a[0] * g0 / h, a[1] * g1 / h, a[2] * g2 / h))
@@ -208,10 +234,10 @@ def from_polytope(polytope, c, B, a):
     least, m, e = np.inf, (o, o, o), (o, o, o)
     for k in range(max(edges, 1)):
         if edges == 0:  # a point
-            m = seen(B, (polytope[FIRST] - c[0], polytope[FIRST + 1] - c[1], polytope[FIRST + 2] - c[2]))
+            m = into(B, (polytope[FIRST] - c[0], polytope[FIRST + 1] - c[1], polytope[FIRST + 2] - c[2]))
             break
         p = first + 6 * k
-        middle = seen(
+        middle = into(
             B,
             (
                 0.5 * (polytope[p] + polytope[p + 3]) - c[0],
@@ -219,7 +245,7 @@ def from_polytope(polytope, c, B, a):
                 0.5 * (polytope[p + 2] + polytope[p + 5]) - c[2],
             ),
         )
-        along = seen(
+        along = into(
             B,
             (
                 polytope[p + 3] - polytope[p] + o,
@@ -247,7 +273,7 @@ def from_polytope(polytope, c, B, a):
 @leaf
 def times_matrix(B, a, x):
     """M x, M = B diag(a²) Bᵀ."""
-    y = seen(B, x)
+    y = into(B, x)
     return turned(B, (a[0] * a[0] * y[0], a[1] * a[1] * y[1], a[2] * a[2] * y[2]))
 
 
@@ -377,3 +403,81 @@ def between_ellipsoids(A, a, B, b, d):
         m = turned_by(m, (f * t[0] + g * u[0], f * t[1] + g * u[1], f * t[2] + g * u[2]), 1.0)
     y = support(B, b, m)[1]
     return gap_and_slope(A, a, B, b, d, m)[0], m[0], m[1], m[2], -y[0], -y[1], -y[2]
+
+
+# numbers of a pair with an ellipsoid, behind SWAPPED; SEMI_AXES: of it; OTHER_KIND: of the other one; OTHER_CORE: its radius around what
+# its numbers are of. The RADIUS of one on a plane is without bounds.
+SEMI_AXES, OTHER_KIND, OTHER_CORE, NUMBERS_OF_OTHER = 1, 4, 5, 6
+POLYTOPE, ELLIPSOID = 0, 1
+
+
+@stage
+def between(A, B):
+    """Aᵀ B of two frames (9,), by rows."""
+    x, y, z = seen(A, axis(B, 0)), seen(A, axis(B, 1)), seen(A, axis(B, 2))
+    return x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]
+
+
+@stage
+def find_point_of_ellipsoid(machine, k):
+    """Where contact k may touch and the normal there, left in the numbers; returns (depth, 1 where the other body touches with a face)."""
+    record = record_at(machine)
+    markers, more = record.markers, record.elements.number[k, NUMBERS:]
+    i, j, sign = ends_of(machine, k)
+    A, a, shape = markers.A[j], more[SEMI_AXES:OTHER_KIND], more[NUMBERS_OF_OTHER:]
+    c, B = seen(A, minus(markers.r[i], markers.r[j])), between(A, markers.A[i])
+    if np.int64(real(more[OTHER_KIND])) == ELLIPSOID:
+        o = 0.0 * c[0]
+        upright = o + 1.0, o, o, o, o + 1.0, o, o, o, o + 1.0
+        d, g0, g1, g2, y0, y1, y2 = between_ellipsoids(B, a, upright, shape, (-c[0], -c[1], -c[2]))
+        on_face = 0.0
+    else:
+        d, g0, g1, g2, y0, y1, y2, on_face = from_polytope(shape, c, B, a)
+    depth = more[OTHER_CORE] - d
+    # in the middle of the overlap, from the point of the core on towards the ellipsoid
+    below = 0.5 * depth - more[OTHER_CORE]
+    note_place(machine, k, j, (y0 + below * g0, y1 + below * g1, y2 + below * g2), (g0, g1, g2), -sign)
+    return depth, on_face
+
+
+@stage
+def speed_of_support(machine, k):
+    """Velocity of the point itself where the ellipsoid of contact k rolls on a face.
+
+    x = S² g/|S g| in axes of the ellipsoid, g = Bᵀ n, ġ = Bᵀ (Ω - ω) × n.
+    """
+    record = record_at(machine)
+    markers, bodies, numbers = record.markers, record.bodies, record.elements.number[k]
+    i, j, sign = ends_of(machine, k)
+    p, normal, B, a = numbers[POINT:NORMAL], numbers[NORMAL:SPEED], markers.A[i], numbers[NUMBERS + SEMI_AXES :]
+    n = -sign * normal[0], -sign * normal[1], -sign * normal[2]
+    turning = cross(minus(bodies.omega[markers.body[j]], bodies.omega[markers.body[i]]), n)
+    square, along = 0.0 * n[0], 0.0 * n[0]
+    for b in range(3):
+        g = dot(axis(B, b), n)
+        square += a[b] * a[b] * g * g
+        along += a[b] * a[b] * g * dot(axis(B, b), turning)
+    h = np.sqrt(square)
+    v = velocity_at(bodies, markers.body[i], p)
+    for b in range(3):
+        share = a[b] * a[b] * (dot(axis(B, b), turning) - dot(axis(B, b), n) * along / square) / h
+        v = plus(v, (share * B[0, b], share * B[1, b], share * B[2, b]))
+    return v
+
+
+@family
+def apply_to_ellipsoids(machine, number, t):
+    """All contacts of an ellipsoid."""
+    elements = record_at(machine).elements
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        begin_contact(machine, k, t)
+        if not is_far(machine, k):
+            depth, on_face = find_point_of_ellipsoid(machine, k)
+            if needs_speed(machine, k, 0, depth):
+                if on_face == 1.0:
+                    note_speed(machine, k, speed_of_support(machine, k))
+                else:
+                    note_mean_speed(machine, k)
+            press(machine, k, 0, depth, t)
+        report_contact(machine, k)
+    return OK

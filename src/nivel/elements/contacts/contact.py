@@ -1,4 +1,4 @@
-"""Contact of a body with a plane, or of two bodies."""
+"""Records of contacts: of a body with a plane, of two bodies, and of many spheres."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from typing import Annotated, Any, ClassVar, Final, Literal
 
 from pydantic import BeforeValidator
 
+from nivel.elements.contacts.height_field import HeightField
+from nivel.elements.output import Output, of_force
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import (
     DampingPerLoad,
@@ -19,11 +21,10 @@ from nivel.machine.core.coefficient import (
     Pressure,
     Restitution,
 )
-from nivel.machine.core.element import OUTPUTS, Acts, ForceElement, Holds, Inequalities
-from nivel.machine.core.marker import MarkerPlace
+from nivel.machine.core.element import Acts, ForceElement, Holds, Inequalities
+from nivel.machine.core.marker import ManyMarkers, MarkerPlace
 from nivel.machine.core.record import GROUND, BodyName, Record
-from nivel.machine.forces.height_field import HeightField
-from nivel.machine.given import Field, Given, Maybe, OneRecord, TwoNames, TwoNumbers, TwoRecords
+from nivel.machine.given import Field, Given, ManyNames, Maybe, OneRecord, TwoNames, TwoNumbers, TwoRecords
 from nivel.machine.laws.time_function import ContactForce, SurfaceSpin, SurfaceVelocity, ThreeFunctions
 from nivel.machine.power_stiffness import PowerStiffness
 from nivel.machine.units.quantity import Whole, listed
@@ -38,6 +39,8 @@ FRICTION_MODELS: Final = (
     "default coulomb where a friction_transition_speed is given, else stiction"
 )
 SHAPES_ON_PLANE: Final = (*ROUND, *HULLS)
+HEAT: Final = Output("friction_power", "W", "power that friction turns to heat")
+WORK: Final = Output("friction_work", "J", "work of friction that became heat since the start")  # where it is asked for
 
 
 def friction_model_of(contact: Any) -> FrictionWord:
@@ -65,9 +68,19 @@ class Contact(ForceElement):
     """
 
     outputs: ClassVar[tuple[str, ...]] = (
-        *(*OUTPUTS, "depth", "normal_force", "rate", "friction_force", "slip_speed"),
-        *("friction_power", "surface_power", "sticks", "x", "y", "z"),
-        *("normal_x", "normal_y", "normal_z", "friction_x", "friction_y", "friction_z", "friction_work"),
+        *of_force(),
+        Output("depth", "m", "deepest overlap"),
+        Output("normal_force", "N", "normal force"),
+        Output("rate", "m/s", "rate of the deepest overlap"),
+        Output("friction_force", "N", "friction force"),
+        Output("slip_speed", "m/s", "sliding speed"),
+        HEAT,
+        Output("surface_power", "W", "power of the moving surface"),
+        Output("sticks", "1", "1 where friction holds, else 0"),
+        *(Output(axis, "m", f"{axis} of the middle of the normal forces; 0 without contact") for axis in "xyz"),
+        *(Output(f"normal_{axis}", "1", f"{axis} of the normal towards the first body") for axis in "xyz"),
+        *(Output(f"friction_{axis}", "N", f"friction on the first body along {axis}") for axis in "xyz"),
+        WORK,
     )
 
     inequalities: ClassVar[Inequalities] = (
@@ -244,3 +257,90 @@ class Contact(ForceElement):
             if body == GROUND:
                 message = f"`{GROUND}` has no shape; the contact with it is a `plane` on a marker, or a body with a `fixed` joint"
                 yield Problem(place, message)
+
+
+ALL = "all"
+# of friction that sticks: efforts of all pairs are found together
+MOST_PAIRS: Final = 120
+
+
+def _all_or_names(value: Any) -> Any:
+    return () if isinstance(value, str) and value == ALL else listed(value)
+
+
+class Contacts(ForceElement):
+    """Spheres that push each other and planes apart: force stiffness · depth ** exponent, damped; with Coulomb friction that creeps."""
+
+    outputs: ClassVar[tuple[str, ...]] = (
+        *of_force(),
+        Output("depth", "m", "deepest overlap"),
+        Output("normal_force", "N", "sum of the normal forces"),
+        Output("friction_force", "N", "sum of the friction forces"),
+        HEAT,
+        Output("count", "1", "number of pairs that touch"),
+        WORK,
+    )
+
+    inequalities: ClassVar[Inequalities] = (
+        Acts(
+            ("is apart", "touches"),
+            "depth",
+            lambda own, of: of["depth"],
+            lambda own, of: of["normal_force"],
+        ),
+    )
+
+    type: Literal["contacts"] = "contacts"
+    between: Annotated[ManyNames[BodyName], BeforeValidator(_all_or_names)] = Field(
+        description="`all` bodies whose shape is a sphere, or the names of some: each touches each other"
+    )
+    planes: Annotated[ManyMarkers, BeforeValidator(listed)] = Field(
+        default=(), description="markers: all bodies touch them too, on the side of the z axis"
+    )
+    exponent: Exponent = Field(default=HERTZ, description="of the depth")
+    stiffness: PowerStiffness = Field(description="force by depth ** exponent")
+    restitution: Restitution = Field(description="speed after the impact by the speed before it; 1 loses no energy")
+    friction: NotNegativeNumber = Field(default=0.0, description="coefficient of kinetic friction")
+    static_friction: Maybe[PositiveNumber] = Field(
+        default=None, description="of stiction: coefficient, default `friction`"
+    )
+    friction_model: Maybe[FrictionModel] = Field(
+        default=None,
+        description=f"{FRICTION_MODELS}; stiction is for at most {MOST_PAIRS} pairs, which become single contacts",
+    )
+    friction_transition_speed: Maybe[PositiveSpeed] = Field(
+        default=None, description="friction goes as tanh(sliding speed / this), so bodies creep"
+    )
+
+    friction_work: bool = Field(
+        default=False, description="the heat of friction since the start is an output too, and a state of the run"
+    )
+
+    def problems(self) -> Iterator[Problem]:
+        if len(self.between) == 1:
+            yield Problem(("between",), "at least two bodies are needed: names, or `all`")
+        if GROUND in self.between:
+            yield Problem(("between",), f"`{GROUND}` has no shape: give `planes`")
+        if len(set(self.between)) < len(self.between):
+            twice = next(each for each in self.between if self.between.count(each) > 1)
+            yield Problem(("between",), f"`{twice}` is there twice")
+        if friction_model_of(self) == "stiction" and (self.friction or self.friction_model):
+            yield from self._problems_of_sticking()
+        elif self.friction > 0 and self.friction_transition_speed is None:
+            message = "`friction_transition_speed` is missing: below it friction lets the bodies creep"
+            yield Problem((), f"{message}; of few spheres `friction_model: stiction` holds them")
+        elif self.static_friction is not None:
+            yield superfluous("static_friction", "belongs to `friction_model: stiction`")
+        if self.friction_work and not self.friction:
+            yield superfluous("friction_work", "belongs to `friction`, and none is given")
+        if self.friction_transition_speed is not None and not self.friction:
+            yield superfluous("friction_transition_speed", "belongs to `friction`, and none is given")
+
+    def _problems_of_sticking(self) -> Iterator[Problem]:
+        if not self.friction:
+            yield Problem((), "`friction` is missing, the coefficient of kinetic friction")
+        elif self.friction_transition_speed is not None:
+            yield superfluous("friction_transition_speed", "belongs to `friction_model: coulomb`")
+        elif len(set(self.between)) == len(self.between) != 1:
+            message = "`contacts` stick between spheres of the same file, where each pair becomes a `contact`; write these otherwise"
+            yield Problem(("friction_model",), message)

@@ -1,1 +1,0 @@
-"""Records of forces whose kernels stand elsewhere."""

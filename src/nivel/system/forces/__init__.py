@@ -1,1 +1,0 @@
-"""Numbers of forces whose records and kernels stand elsewhere."""

@@ -1,11 +1,12 @@
 """Errors of pressures, states and other numbers beside positions: what the headline says of them, and that it is no less than the truth."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 
 import nivel
-from nivel.judge.after.checks.quantities import group_of
+from nivel.judge.after.checks.quantities import group_of, means
 from nivel.system.layout import Variable
 
 FAULTS = Path(__file__).parent
@@ -56,3 +57,26 @@ def test_flags_that_jump_have_no_error_in_their_units():
     """`sticks` of a contact is 0 or 1, `count` of many spheres a whole number: an error of 1.39 of them says nothing."""
     for name, group in (("force.lies.sticks", ""), ("force.heap.count", ""), ("force.lies.depth", "forces")):
         assert group_of(Variable(name, ("time",), "1", name, slice(0, 1)), frozenset()) == group
+
+
+def test_accelerations_of_undamped_beams_are_compared_as_means_from_frame_to_frame():
+    """x = t²/2 with a vibration of whole periods between frames: its means are 1, whatever its phase; half of it is vibration."""
+    time = np.linspace(0.0, 1.0, 11)
+
+    def result(phase):
+        omega = 2.0 * np.pi / 0.05
+        arrays = {
+            "velocity": time + np.sin(omega * time + phase) / omega,
+            "acceleration": 1.0 + np.cos(omega * time + phase),
+        }
+        return SimpleNamespace(time=time, variables=arrays, array=arrays.__getitem__)
+
+    beams = [SimpleNamespace(damping=0.0)]
+    second = SimpleNamespace(result=result(1.0))
+    run = SimpleNamespace(machine=SimpleNamespace(beams=beams), result=result(0.0), second=second)
+    found = means(run, SimpleNamespace(factor=1.0), "acceleration")
+    assert found.error.max() < 1e-12
+    assert found.extent.max() < 1e-12
+    np.testing.assert_allclose([found.over, found.above], [0.1, np.sqrt(0.75)])
+    beams[0].damping = 1e-3
+    assert means(run, SimpleNamespace(factor=1.0), "acceleration") is None

@@ -191,3 +191,22 @@ def test_a_verdict_does_not_depend_on_what_else_is_asked(tmp_path):
             assert alone.attrs["estimated_error"] == together[name].attrs["estimated_error"]
     assert together.attrs["verdict"] != "green"
     assert together["d(place.position.x)/d(bodies.place.velocity.0)"].attrs["verdict"] == "green"
+
+
+def test_by_default_a_clutch_that_locks_has_slopes(tmp_path):
+    """J₁ at 30 rad/s and J₂ at rest lock at 3.6/C s, at 12 rad/s. ∫T dt falls by J² s³/(6 C²), J = J₁J₂/(J₁ + J₂); φ₂ rises by 21.6/C²."""
+    path = tmp_path / "clutch.yaml"
+    path.write_text(
+        "format: 1\ngravity: [0, 0, 0]\nparameters: {cap: 6}\nbodies:\n"
+        "  a: {mass: 1, inertia: [0.2, 0.2, 0.2], angular_velocity: [30, 0, 0]}\n"
+        "  b: {mass: 1, inertia: [0.3, 0.3, 0.3], position: [1, 0, 0]}\njoints:\n"
+        "  ja: {type: revolute, bodies: [ground, a], point: [0, 0, 0], axis: [1, 0, 0]}\n"
+        "  jb: {type: revolute, bodies: [ground, b], point: [1, 0, 0], axis: [1, 0, 0]}\n"
+        "forces: {plates: {type: clutch, coordinate: jb, against: ja, capacity: cap}}\nsimulation: {duration: 1.2}\n"
+    )
+    outputs, exact = ["integral(kinetic_energy)", "jb.angle"], [-(0.12**2) * 30.0**3 / 216.0, 0.6]
+    found = nivel.load(path).gradient(outputs, ["parameters.cap"])
+    for output, slope in zip(outputs, exact, strict=True):
+        known = found[f"d({output})/d(parameters.cap)"]
+        assert abs(float(known) - slope) <= max(known.attrs["estimated_error"], 1e-6)
+        assert known.attrs["estimated_error"] < 1e-4

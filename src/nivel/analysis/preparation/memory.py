@@ -27,7 +27,7 @@ from nivel.kernels.record.beam_record import BeamTangent
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.flexible_record import Flexible, ModalTree
 from nivel.kernels.record.function import CODE
-from nivel.kernels.record.implicit_record import Coupled, Newton, RealFactors, Residual, Shifted
+from nivel.kernels.record.implicit_record import ComplexFactors, Coupled, Newton, RealFactors, Residual, Shifted
 from nivel.kernels.record.program import END, LENGTH, run
 from nivel.kernels.record.record import (
     Circuit,
@@ -89,6 +89,7 @@ WORKSPACE: Final[Mapping[type, str]] = {
     Residual: "limit rate",
     Newton: "base turn speed state correction rate change value L U Dinv work pivot b last moved before moved_before",
     RealFactors: "value L U Dinv work pivot b moved r",
+    ComplexFactors: "pivot",
     Coupled: "M D K state r moved reach spin pivot work",
     Shifted: "M D K",
     Control: "failure",

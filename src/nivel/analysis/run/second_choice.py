@@ -1,8 +1,9 @@
 """Second choice of a run that names no integrator: other steps, where the trust report is not green for what steps can cure.
 
 The second run of the first choice is there and finer: it becomes the result, and a third one with a tenth of its tolerance verifies it.
-Where steps are fixed, the machine runs once more with steps as short as the lines that are not green ask for. At last radau runs from the
-start. The choice whose report is best is kept, and the report says what was tried.
+Where steps are fixed, the machine runs once more with steps as short as the lines that are not green ask for, and work allows. At last
+radau runs from the start, but of beams, whose vibrations it would follow. The choice whose report is best is kept, and the report says
+what was tried.
 """
 
 from __future__ import annotations
@@ -40,6 +41,9 @@ OF_FIXED_STEPS: Final = "rk4"
 FAILED: Final = "no method is named, and steps that follow the motion come to no end"
 # Fixed steps are divided by so much at most; the error is to be this much below what is green.
 MOST_PARTS, MARGIN = 16, 1.5
+# Work grows by this power of the number of steps (measured 0.1 to 0.7), as shorter ones need fewer iterations: what is not affordable is
+# not begun.
+GROWTH = 0.75
 
 
 @dataclass(frozen=True)
@@ -93,11 +97,13 @@ def _choices(first: Attempt, trust: Trust, options: Options) -> Iterator[Attempt
             yield choice
     elif "step" not in asked:
         order = INTEGRATORS[plan.settings.integrator].order
-        parts = min(MOST_PARTS, max(2, ceil((MARGIN * _excess(trust)) ** (1.0 / order))))
-        finer = other_run(plan, plan.settings.integrator, step=plan.settings.step / parts)
+        wanted = max(2, ceil((MARGIN * _excess(trust)) ** (1.0 / order)))
+        parts = min(MOST_PARTS, wanted, int((options.most / max(first.finished.work, 1)) ** (1.0 / GROWTH)))
+        finer = other_run(plan, plan.settings.integrator, step=plan.settings.step / parts) if parts > 1 else None
         if finer is not None:
             yield _run(finer, options)
-    if (plan.settings.integrator, plan.settings.tolerance) != (FOR_STIFF, USUAL_TOLERANCE):
+    usual = (FOR_STIFF, USUAL_TOLERANCE)
+    if (plan.settings.integrator, plan.settings.tolerance) != usual and not plan.machine.beams:
         last = other_run(plan, FOR_STIFF)
         if last is not None and (choice := _started(last, options)) is not None:
             yield choice

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,7 @@ from nivel.results.motion import common_frames
 from nivel.results.scales import Readable
 from nivel.results.trust import Item, Threshold, amount, number
 from nivel.system.layout import Variable
+from nivel.words.wording import seconds
 
 Array = NDArray[np.float64]
 THRESHOLD = Threshold(
@@ -40,6 +42,8 @@ ROUNDED = 1e-9
 ELSEWHERE = ("position", "orientation", "joint_coordinate", "constraint_", "axis_")
 # Motions of the frames of bodies, and which of them are turns.
 FRAME_MOTIONS = {"velocity": False, "angular_velocity": True, "acceleration": False, "angular_acceleration": True}
+# Accelerations, and the rates by which their means from frame to frame are known.
+RATES = {"acceleration": "velocity", "angular_acceleration": "angular_velocity", "joint_acceleration": "joint_rate"}
 FLAGS = (".sticks", ".count")  # whole numbers, which jump
 ENERGIES = ("kinetic_energy", "potential_energy", "dissipated_energy", "external_work", "energy_error", "total_energy")
 
@@ -57,7 +61,8 @@ class Group:
 class QuantityError:
     """The number of a group that is wrong most on its own scale. error : its largest one; mean : their mean magnitude; extent : its
     range in the run; largest : the largest error of all numbers of the group in these `units`. beams : what the elements of beams make
-    wrong of it is not looked at here. points : of a flexible body, on the scale of the motion of its points."""
+    wrong of it is not looked at here. points : of a flexible body, on the scale of the motion of its points. over : time [s] over which
+    means are compared, of accelerations of undamped beams; above : the share of them that vibrates faster."""
 
     quantity: str
     name: str
@@ -68,6 +73,8 @@ class QuantityError:
     largest: float
     beams: bool = False
     points: bool = False
+    over: float = 0.0
+    above: float = 0.0
 
     @property
     def share(self) -> float:
@@ -130,6 +137,8 @@ def say(found: QuantityError) -> Item:
     scale = "the range that points of the body have" if found.points else "its range"
     its = f"{amount(found.mean, found.units)} on average, {number(found.share)} of {scale}"
     within = f"{found.quantity} within {amount(found.largest, found.units)}"
+    if found.over:
+        within += f" as means over {seconds(found.over)}, since {number(found.above)} of them is faster vibration without damping"
     by = (
         ", by the steps alone: errors of the elements of beams come on top (estimated_error has both)"
         if found.beams
@@ -183,6 +192,13 @@ def _errors(run: Run, estimate: Estimate, group: Group, scales: _Scales) -> Iter
         largest, natural = largest_of[variable.units], _natural(run, variable.units)
         rounded = ROUNDED * max(natural, size_of[variable.units])
         magnitude = _joined(variable, np.max(np.abs(result.array(name)), axis=0, initial=0.0))
+        slow = means(run, estimate, name) if second is not None else None
+        if slow is not None:
+            mean, error, extents[name] = (
+                slow.mean,
+                slow.error,
+                np.minimum(extents[name], _joined(variable, slow.extent)),
+            )
         extent = np.maximum(extents[name], AT_REST * np.maximum(magnitude, natural))
         extent = np.maximum(np.maximum(extent, group.at_rest * largest), states.get(name, 0.0))
         moved = np.broadcast_to(scales.points.get(name, 0.0), extent.shape)
@@ -193,9 +209,40 @@ def _errors(run: Run, estimate: Estimate, group: Group, scales: _Scales) -> Iter
             units = variable.units or ("rad/s" if label.endswith("angle") else "m/s" if name == "joint_rate" else "1")
             own = float(error[k])
             scale = max(float(extent[k]), float(moved[k]), rounded) or own
-            yield QuantityError(
+            found = QuantityError(
                 group.name, label, own, float(mean[k]), scale, units, own, points=bool(moved[k] >= scale)
             )
+            yield found if slow is None else replace(found, over=slow.over, above=slow.above)
+
+
+class Means(NamedTuple):
+    """Means of accelerations from frame to frame. mean, error : of their errors, the mean and the largest; extent : their range. over [s] :
+    between frames; above : the share of the accelerations, by root mean squares, that is faster."""
+
+    mean: Array
+    error: Array
+    extent: Array
+    over: float
+    above: float
+
+
+def means(run: Run, estimate: Estimate, name: str) -> Means | None:
+    """Those of undamped beams, by the rates in frames of both runs: steps follow the motion, and not the vibrations that nothing ends."""
+    if name not in RATES or all(beam.damping for beam in run.machine.beams):
+        return None
+    assert run.second is not None
+    second = run.second.result
+    here, there = common_frames(run.result.time, second.time)
+    rate = RATES[name]
+    if len(here) < 3 or rate not in run.result.variables or rate not in second.variables:
+        return None
+    over = np.diff(run.result.time[here])
+    spans = over.reshape(-1, *[1] * (run.result.array(rate).ndim - 1))
+    own, other = (np.diff(each, axis=0) / spans for each in (run.result.array(rate)[here], second.array(rate)[there]))
+    whole, slow = (float(np.sqrt(np.nanmean(each**2))) for each in (run.result.array(name)[here], own))
+    off = distances(own, other, estimate.factor)
+    above = float(np.sqrt(max(0.0, 1.0 - (slow / whole) ** 2))) if whole > 0.0 else 0.0
+    return Means(np.mean(off, axis=0), np.max(off, axis=0), np.ptp(own, axis=0), float(np.median(over)), above)
 
 
 def errors_apart(run: Run, estimate: Estimate, name: str, spans: tuple[tuple[float, float], ...]) -> Array:
@@ -265,7 +312,8 @@ def _natural(run: Run, units: str) -> float:
     size = run.scales.size
     # a machine at rest has the largest speed that counts as none
     speed = run.scales.speed / (AT_REST if run.scales.at_rest else 1.0)
-    weight = 9.81 * float(np.sum(run.prepared.motion.system.record.bodies.mass))
+    mass = float(np.sum(run.prepared.motion.system.record.bodies.mass))
+    weight = 9.81 * mass
     known = {
         "m/s": speed,
         "rad/s": speed / size,
@@ -274,6 +322,10 @@ def _natural(run: Run, units: str) -> float:
         "Pa": 1e5,
         "m^3/s": 1e-3,
         "kg/s": 1.0,
+        # modes of unit mass, whose deflections are a thousandth of the size
+        "kg^0.5 m": 1e-3 * size * mass**0.5,
+        "kg^0.5 m/s": speed * mass**0.5,
+        "kg^0.5 m/s^2": 9.81 * mass**0.5,
     }
     known |= {"N": weight, "N m": weight * size, "J": weight * size, "W": weight * speed, "A": 1.0, "V": 1.0}
     if units in known or units in ("1", "", "rad", "m"):

@@ -132,3 +132,11 @@ def test_a_second_axis_is_a_second_joint_and_a_gearbox_is_a_coupling(tmp_path):
     coupling = read_model(written(tmp_path, text, "g.sdf")).data["couplings"]["cart_turn_mimic"]
     assert coupling["coordinates"] == ["cart_turn.angle", "cart_steer.angle"]
     assert coupling["factors"] == [1.0, -3.0]
+
+
+def test_friction_below_zero_is_without_limit(tmp_path):
+    path = written(tmp_path, WORLD.replace("<mu>0.6</mu><mu2>0.5</mu2>", "<mu>-1</mu><mu2>-1</mu2>"), "world.sdf")
+    translation = read_model(path)
+    kept = [each for each in translation.data["forces"].values() if each["type"] == "contact"]
+    assert {each["friction"] for each in kept} == {1.0}  # that of the other surface
+    assert any("friction below zero is without limit" in each for each in translation.summary())

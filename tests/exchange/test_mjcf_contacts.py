@@ -112,3 +112,17 @@ def test_the_table_carries_its_weight_and_sinks_as_in_mujoco(path):
     sunk, own = 0.2 - data.qpos[2], 0.2 - height
     assert 0.5 * sunk < own < 2.0 * sunk
     np.testing.assert_allclose(height, data.qpos[2], atol=1e-3)
+
+
+def test_what_a_weld_holds_to_the_ground_does_not_touch_it(tmp_path):
+    path = tmp_path / "model.xml"
+    path.write_text(
+        '<mujoco><worldbody><geom type="plane" size="1 1 1"/><body name="held" pos="0 0 .05"><freejoint/><geom size=".1"/></body>'
+        '<body name="ball" pos="0 .5 .1"><freejoint/><geom size=".1"/></body></worldbody>'
+        '<equality><weld body1="held"/></equality></mujoco>',
+        encoding="utf-8",
+    )
+    machine = nivel.import_model(path)
+    touching = [each.name for each in machine.record.forces if each.type == "contact"]
+    assert len(touching) == 2  # the ball and the plane, the ball and what is held
+    assert [body.name for body in machine.record.bodies] == ["ball"]

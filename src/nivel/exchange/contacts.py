@@ -40,6 +40,8 @@ def contacts_of(
     areas: dict[str, float] = {}
     for touch in mechanism.touches:
         pair = [mechanism.solids[touch.first], mechanism.solids[touch.second]]
+        if groups[pair[0].link].first == groups[pair[1].link].first:  # as where a weld holds both
+            continue
         for solid in pair:
             if solid.name not in areas:
                 areas[solid.name] = _add_marker(solid, markers, mechanism, groups, names, drawing)

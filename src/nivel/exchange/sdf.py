@@ -46,6 +46,8 @@ KNOWN: Final = (
     "allow_auto_disable",
 )
 GRAVITY: Final = (0.0, 0.0, -9.8)
+GRIPS: Final = 10.0  # friction in place of one without limit
+LIMITLESS: Final = f"friction below zero is without limit: {GRIPS:g} is written"
 MODEL: Final = "__model__"
 THE_WORLD: Final = "world"
 NEWER: Final = 1.7  # from this version on, axes are in the frame of the joint unless they say otherwise
@@ -231,7 +233,10 @@ class _Model:
 
     def _surface(self, element: Element | None) -> Surface:
         friction, contact = _inner(element, "friction", "ode"), _inner(element, "contact", "ode")
-        mu = min(_value(friction, tag, 1.0, self.document) for tag in ("mu", "mu2"))
+        given = [_value(friction, tag, 1.0, self.document) for tag in ("mu", "mu2")]
+        if min(given) < 0.0:
+            self.mechanism.notes.change(LIMITLESS, self.element.get("name"), element.line if element else 0)
+        mu = min(each if each >= 0.0 else GRIPS for each in given)
         kp, kd = (_value(contact, tag, 0.0, self.document) for tag in ("kp", "kd"))
         if element is not None and _value(element.first("bounce"), "restitution_coefficient", 0.0, self.document):
             self.mechanism.notes.leave("restitution of surfaces", self.element.get("name"), element.line, acts=True)

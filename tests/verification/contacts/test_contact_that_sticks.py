@@ -488,3 +488,38 @@ def test_statics_says_that_friction_of_contacts_is_none():
     sections = box(0.3) | {"joints": {"guide": slide("ground", "box", (0, 0, 1))}}
     result = machine(sections).statics()
     assert any("friction of contacts exerts no force at rest (touch)" in item.text for item in result.trust.items)
+
+
+# --- shares ---
+BALL = {"type": "sphere", "radius": 0.05}
+
+
+@pytest.mark.parametrize(("integrator", "coordinates"), [("dopri5", "absolute"), ("rk4", "relative")])
+def test_feet_on_a_plane_share_lateral_loads_by_least_norm(integrator, coordinates):
+    """Feet at ρ from their centre under a force F and a moment M about it: each has -F/n - M ẑ × ρ/Σρ²; that this is a choice is said."""
+    feet, push, turn = np.array([(0.3, 0.2), (0.3, -0.2), (-0.3, 0.2), (-0.3, -0.1)]), np.array([10.0, 4.0]), 3.0
+    shapes = {f"foot_{k}": {"body": "table", "position": [*foot, -0.45], "shape": BALL} for k, foot in enumerate(feet)}
+    # the normal forces carry the weight and the moment that friction at the floor has about the centre of mass
+    height, weight, rows = 0.5, 8.0 * G, np.column_stack([np.ones(4), feet])
+    load = np.linalg.lstsq(rows.T, [weight, 0.0, 0.0], rcond=None)[0]
+    down = np.linalg.lstsq(rows, load / STIFFNESS, rcond=None)[0]
+    tilt = {"axis": [down[2], -down[1], 0.0], "angle": float(np.hypot(down[1], down[2]))}
+    sections = {
+        "gravity": [0, 0, -G],
+        "bodies": {
+            "table": {"mass": 8, "inertia": [0.3, 0.4, 0.5], "position": [0, 0, height - down[0]], "orientation": tilt}
+        },
+        "markers": {"floor": {"body": "ground", "axis": [0, 0, 1]}, **shapes},
+        "forces": {
+            **{f"touch_{k}": touching(0.8, body=f"foot_{k}", plane="floor") for k in range(4)},
+            "push": {"type": "force", "body": "table", "position": [0, 0, -height], "vector": [*push, 0]},
+            "turn": {"type": "torque", "body": "table", "vector": [0, 0, turn]},
+        },
+    }
+    r = simulate(sections, integrator=integrator, coordinates=coordinates, step=5e-4, duration=0.3)
+    centre = feet.mean(axis=0)
+    arms, moment = feet - centre, turn - centre[0] * push[1] + centre[1] * push[0]
+    expected = -push / 4 - moment * np.column_stack([-arms[:, 1], arms[:, 0]]) / np.sum(arms**2)
+    found = [[r.array(f"force.touch_{k}.friction_{axis}")[-1] for axis in "xy"] for k in range(4)]
+    np.testing.assert_allclose(found, expected, atol=2e-4)
+    assert "touch_0, contact touch_1, contact touch_2 and contact touch_3 hold slip at rest together" in str(r.trust)

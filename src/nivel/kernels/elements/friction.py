@@ -78,6 +78,10 @@ ANCHOR, LAST_ANCHOR = 1e-3, 1e-2
 BOUND = 1e3
 # An effort that differs from kinetic friction by this share holds.
 DIFFERENT = 1e-9
+# Where patches that hold are more than one motion needs, what is left of a pivot of S below this share of the largest is round-off.
+DEPENDENT = 1e-9
+# Where patches that hold are more than one motion needs, what is left of a pivot of S below this share of the largest is round-off.
+DEPENDENT = 1e-9
 # S_kk as this share of 1/m is round-off: the motion is prescribed.
 PRESCRIBED = 1e-7
 # So much of the larger S_kk of both tangents of a patch is added to all, where its motion may be prescribed; elsewhere it is taken out.
@@ -702,6 +706,132 @@ def propose(machine):
 
 
 @stage
+def held_patches(record):
+    """Note in `work` the efforts of all patches that hold, those of spins where there is a reach. Returns how many these are."""
+    friction, count = record.friction, 0
+    for a in range(active_count(friction)):
+        k = acting(friction, a)
+        friction.work[WANTED, k] = 0.0
+        if friction.columns[k, MODEL] != PATCH:
+            continue
+        first = np.int64(friction.columns[k, FIRST])
+        reach = real(record.coordinates.value[friction.columns[first, COORDINATE] + 1])
+        if is_held(record, first) and (k < first + 2 or reach > 0.0):
+            friction.work[AHEAD, count] = k
+            friction.work[CHANGE, count] = reach if k == first + 2 else 1.0
+            count += 1
+    return count
+
+
+@stage
+def decompose(record, count):
+    """Turn S of the noted efforts, scaled by their arms, into U of Uᵀ D⁻¹ U by the largest pivots, which are noted in this order. Returns the
+    rank."""
+    friction = record.friction
+    S, order, arm = friction.S, friction.work[AHEAD], friction.work[CHANGE]
+    for a in range(count):
+        for b in range(count):
+            S[np.int64(order[a]), np.int64(order[b])] *= arm[a] * arm[b]
+    largest = 0.0
+    for a in range(count):
+        best = a
+        for b in range(a + 1, count):
+            if S[np.int64(order[b]), np.int64(order[b])] > S[np.int64(order[best]), np.int64(order[best])]:
+                best = b
+        order[a], order[best] = order[best], order[a]
+        arm[a], arm[best] = arm[best], arm[a]
+        i = np.int64(order[a])
+        largest = max(largest, S[i, i])
+        if not S[i, i] > DEPENDENT * largest:
+            return a
+        for b in range(a + 1, count):
+            j = np.int64(order[b])
+            part = S[j, i] / S[i, i]
+            for c in range(a + 1, count):
+                S[j, np.int64(order[c])] -= part * S[i, np.int64(order[c])]
+    return count
+
+
+@stage
+def find_shift(record, rank, count):
+    """Leave in `work`, by frictions, what takes the efforts F to those of least norm: with W = S₁₁⁻¹ S₁₂ they change along (-W, 1) alone,
+    by -(1 + Wᵀ W)⁻¹ (F₂ - Wᵀ F₁)."""
+    friction = record.friction
+    S, order, arm = friction.S, friction.work[AHEAD], friction.work[CHANGE]
+    y, out = friction.work[DEFECT], friction.work[WANTED]
+    for b in range(rank, count):
+        j = np.int64(order[b])
+        y[b] = friction.force[j] / arm[b]
+        for a in range(rank - 1, -1, -1):
+            i = np.int64(order[a])
+            total = S[i, j]
+            for c in range(a + 1, rank):
+                total -= S[i, np.int64(order[c])] * S[j, np.int64(order[c])]
+            S[j, i] = total / S[i, i]
+            y[b] -= S[j, i] * friction.force[i] / arm[a]
+    for b in range(rank, count):
+        j = np.int64(order[b])
+        for c in range(rank, count):
+            total, other = 1.0 if b == c else 0.0, np.int64(order[c])
+            for a in range(rank):
+                total += S[j, np.int64(order[a])] * S[other, np.int64(order[a])]
+            S[j, other] = total
+    for b in range(rank, count):
+        j = np.int64(order[b])
+        for c in range(b + 1, count):
+            other = np.int64(order[c])
+            part = S[other, j] / S[j, j]
+            y[c] -= part * y[b]
+            for d in range(b + 1, count):
+                S[other, np.int64(order[d])] -= part * S[j, np.int64(order[d])]
+    for b in range(count - 1, rank - 1, -1):
+        j = np.int64(order[b])
+        for c in range(b + 1, count):
+            y[b] -= S[j, np.int64(order[c])] * y[c]
+        y[b] /= S[j, j]
+        out[j] = -y[b]
+        for a in range(rank):
+            out[np.int64(order[a])] += S[j, np.int64(order[a])] * y[b]
+
+
+@stage
+def room(record, k):
+    """The share of the change in `work` that the patch from friction k on has room for within static friction, 1 at most."""
+    friction, q = record.friction, record.friction.columns[k, COORDINATE]
+    reach, limit = real(record.coordinates.value[q + 1]), friction.number[k, STATIC] * real(record.coordinates.value[q])
+    square, both, change = -limit * limit, 0.0, 0.0
+    for a in range(friction.columns[k, COUNT]):
+        arm = 1.0 if a < 2 else reach
+        effort, more = friction.force[k + a] / arm if arm > 0.0 else 0.0, friction.work[WANTED, k + a]
+        square, both, change = square + effort * effort, both + effort * more, change + more * more
+    if change == 0.0 or square + 2.0 * both + change <= 0.0:
+        return 1.0
+    return max((-both + np.sqrt(max(both * both - change * square, 0.0))) / change, 0.0) if square < 0.0 else 0.0
+
+
+@stage
+def share(machine):
+    """Have patches that hold, and are more than one motion needs, take the efforts of least norm that cause the same accelerations, those
+    of spins by their reach; as near to these as static friction allows."""
+    record = record_at(machine)
+    friction = record.friction
+    count = held_patches(record)
+    rank = decompose(record, count) if count > 1 else count
+    if rank == count:
+        return
+    find_shift(record, rank, count)
+    part = 1.0
+    for a in range(count):
+        k = np.int64(friction.work[AHEAD, a])
+        if friction.columns[k, FIRST] == k:
+            part = min(part, room(record, k))
+    for a in range(count):
+        k = np.int64(friction.work[AHEAD, a])
+        friction.force[k] += part * friction.work[CHANGE, a] * friction.work[WANTED, k]
+    superpose(machine)
+
+
+@stage
 def report_patch(machine, k):
     """Outputs of the contact whose patch begins with friction k, with its efforts; they take their power from the machine, and pass on that
     of a surface that moves over its body."""
@@ -793,6 +923,8 @@ def apply(machine, number, t):
     if not largest <= ENOUGH * scale:
         control.failure[0] = worst
         return FRICTION_DIVERGES
+    if has_patches(record):
+        share(machine)
     for a in range(count):
         k = acting(friction, a)
         force = friction.force[k]

@@ -14,6 +14,7 @@ from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Run
 from nivel.kernels.elements import friction as columns
 from nivel.lazy import dataclass
+from nivel.machine.forces.contact import Contact
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.results.frames.contents import own_units
@@ -28,6 +29,7 @@ SHOWN = 3  # spans in a sentence
 RESTING = 1e-6
 # An effort below the greatest one by more than this share of it is that of a friction that sticks.
 WITHIN = 1e-6
+MOST_PATTERNS = 8  # sets of contacts that stick
 # A motion of which no more than this share is left beside others follows from them.
 LEFT = 1e-7
 
@@ -83,7 +85,8 @@ class SharedLoads:
 def look(run: Run) -> SharedLoads | None:
     """Frictions that hold something at rest together, with what prescribes its motion or with each other."""
     held, sticking = resting_frictions(run.machine, run.prepared.absolute, run.prepared.assembly.y)
-    shared = (*shared_loads(run.result, held), *loads_held_together(run.result, sticking))
+    joints = (*shared_loads(run.result, held), *loads_held_together(run.result, sticking))
+    shared = (*joints, *contacts_together(run))
     efforts = tuple(dict.fromkeys(name for each in shared for name in each.efforts))
     return SharedLoads(shared, efforts) if shared else None
 
@@ -136,6 +139,50 @@ def _owners(system: System, rows: NDArray[np.intp]) -> tuple[tuple[str, ...], tu
     owners = {system.row_owner[row]: system.rows[row].endswith(".driver") for row in rows}
     drivers = tuple(name for name, drives in owners.items() if drives)
     return drivers, tuple(name for name in owners if name not in drivers)
+
+
+def contacts_together(run: Run) -> tuple[Shared, ...]:
+    """Contacts that hold one motion together, over two frames or more: of those that stick in a frame, whose slips and spins follow from
+    each other. Each set of contacts that stick is looked at in the middle of its frames, the commonest of them first."""
+    result, motion = run.result, run.prepared.absolute
+    names = [each.name for each in run.machine.forces if isinstance(each, Contact) and each.sticks]
+    if len(names) < 2:
+        return ()
+    sticks = np.array([result.array(f"force.{name}.sticks") > 0.5 for name in names]).T
+    patterns, of_frame, counts = np.unique(sticks, axis=0, return_inverse=True, return_counts=True)
+    found: dict[tuple[str, ...], NDArray[np.bool_]] = {}
+    for k in np.argsort(-counts)[:MOST_PATTERNS]:
+        frames = of_frame.ravel() == k
+        held = [name for name, holds in zip(names, patterns[k], strict=True) if holds]
+        if len(held) > 1 and (group := _dependent(run, motion, held, int(np.flatnonzero(frames)[frames.sum() // 2]))):
+            found[group] = found.get(group, np.zeros(len(frames), dtype=bool)) | frames
+    out = []
+    for group, frames in found.items():
+        if spans := spans_of(result.time, frames):
+            efforts = (f"force.{name}.friction_{what}" for name in group for what in ("force", "x", "y", "z"))
+            out.append(Shared(tuple(f"contact {name}" for name in group), ("slip",), tuple(efforts), spans))
+    return tuple(out)
+
+
+def _dependent(run: Run, motion: MotionEquations, names: list[str], frame: int) -> tuple[str, ...]:
+    """Those of these contacts whose slips and spins in a frame follow from those of the others."""
+    system, result = motion.system, run.result
+    own = [k for k, each in enumerate(system.frictions) if each.rpartition(".")[0] in names]
+    bodies = slice(0, system.body_count)
+    R, theta = (result.array(what)[frame][bodies] for what in ("position", "orientation"))
+    still = np.zeros((system.body_count, 3))
+    motion.evaluate(float(result.time[frame]), system.state(np.hstack([R, theta]).ravel(), still, still))
+    places = [int(system.record.friction.columns[k, columns.COORDINATE]) for k in own]
+    wanted = coordinate_derivatives(motion, places)
+    if system.machine_rows:
+        rows = motion.jacobian().reshape(system.machine_rows, -1, 6).copy()
+        rows[:, :, :3] *= system.size
+        basis = _basis(_unit(rows.reshape(system.machine_rows, -1)))
+        wanted = wanted - wanted @ basis.T @ basis
+    _, size, every = np.linalg.svd(wanted.T)
+    free = every[int(np.sum(size > LEFT * max(size.max(initial=0.0), 1e-300))) :]
+    taking = [k for k, part in zip(own, np.abs(free).max(axis=0, initial=0.0), strict=True) if part > LEFT]
+    return tuple(dict.fromkeys(system.frictions[k].rpartition(".")[0] for k in taking))
 
 
 def _unit(rows: Array) -> Array:

@@ -74,6 +74,8 @@ def test_python_of_a_page_runs_from_top_to_bottom(page, tmp_path):
         (tmp_path / name).write_text(block, encoding="utf-8")
     for example in ("suspension", "toggle"):
         shutil.copy(rigid_example(example), tmp_path)
+    for model in ("quadruped.urdf", "quadruped.yaml"):
+        shutil.copy(ROOT / "examples" / "robots" / model, tmp_path)
     code = "\n".join(blocks(text, "python"))
     if not code:
         pytest.skip("no Python on this page")

@@ -1,4 +1,4 @@
-"""What acts at a joint coordinate: stops and friction of the joint, and dampers, springs, couplings, start values beside it."""
+"""Forces and parts at a joint coordinate: stops and friction of the joint, and dampers, springs, couplings, start values beside it."""
 
 from __future__ import annotations
 

@@ -725,8 +725,8 @@ def held_patches(record):
 
 @stage
 def decompose(record, count):
-    """Turn S of the noted efforts, scaled by their arms, into U of Uᵀ D⁻¹ U by the largest pivots, which are noted in this order. Returns the
-    rank."""
+    """Turn S of the noted efforts, scaled by their arms, into U of Uᵀ D⁻¹ U by the largest pivots, which are noted in this order.
+    Returns the rank."""
     friction = record.friction
     S, order, arm = friction.S, friction.work[AHEAD], friction.work[CHANGE]
     for a in range(count):

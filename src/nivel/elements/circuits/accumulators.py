@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
@@ -20,7 +20,7 @@ from nivel.elements.circuits.nodes import volume_node
 from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.restrictions import TRANSITION, add_flow, restrict
 from nivel.elements.circuits.smooth import ramp, root_flow, step
-from nivel.elements.circuits.symbol import Symbol, path, setting
+from nivel.elements.circuits.symbol import Symbol, path
 from nivel.elements.circuits.tangent import add_flow_by_pressure
 from nivel.elements.circuits.volumes import THETA
 from nivel.elements.rows import element
@@ -220,11 +220,7 @@ def _add_gas(builder: SystemBuilder, component: Accumulator, time: float) -> Non
 
 OF_ACCUMULATORS = (restrict, charge, exchange_heat, charge_nitrogen, warm_nitrogen, rub)
 
+BODY = path("M-10 -10 A10 10 0 0 1 10 -10 V6 A10 10 0 0 1 -10 6 Z M-10 -2 H10 M0 16 V22 M-4 -8 h8 l-4 5 z")
+ACCUMULATOR = Symbol(BODY, 10.0, 22.0, {}, {"A": 0.0}, "supply", key="volume", unit=(1e3, "L"))
 
-def accumulator(data: Mapping[str, Any]) -> Symbol:
-    """An accumulator."""
-    body = path("M-10 -10 A10 10 0 0 1 10 -10 V6 A10 10 0 0 1 -10 6 Z M-10 -2 H10 M0 16 V22 M-4 -8 h8 l-4 5 z")
-    return Symbol(body, 10.0, 22.0, {}, {"A": 0.0}, "supply", setting(data, "volume", 1e3, "L"))
-
-
-KINDS = (ComponentKind(Accumulator, add_inlet, OF_ACCUMULATORS, symbol=accumulator, nodes=accumulator_nodes),)
+KINDS = (ComponentKind(Accumulator, add_inlet, OF_ACCUMULATORS, symbol=ACCUMULATOR, nodes=accumulator_nodes),)

@@ -244,21 +244,15 @@ def cylinder(data: Mapping[str, Any]) -> Symbol:
     return Symbol(body, 48.0, 22.0, {}, {"A": -38.0} | ({"B": 14.0} if both else {}), "actuator")
 
 
-def telescope(_: Mapping[str, Any]) -> Symbol:
-    """A telescopic cylinder."""
-    body = path("M-46 -14 H6 V14 H-46 Z M-30 -14 V14 M-30 -8 H28 V8 H-30 M-22 -8 V8 M-22 -3 H48 V3 H-22 M-38 14 V22")
-    return Symbol(body, 48.0, 22.0, {}, {"A": -38.0}, "actuator")
+STAGES = path("M-46 -14 H6 V14 H-46 Z M-30 -14 V14 M-30 -8 H28 V8 H-30 M-22 -8 V8 M-22 -3 H48 V3 H-22 M-38 14 V22")
+TELESCOPE = Symbol(STAGES, 48.0, 22.0, {}, {"A": -38.0}, "actuator")
 
-
-def rotary(_: Mapping[str, Any]) -> Symbol:
-    """A rotary actuator."""
-    body = path("M-18 6 A18 18 0 0 1 18 6 Z M0 -12 V-20 M-10 6 V22 M10 6 V22 M0 6 L8 -6")
-    return Symbol(body, 18.0, 22.0, {}, {"A": -10.0, "B": 10.0}, "actuator")
-
+VANE = path("M-18 6 A18 18 0 0 1 18 6 Z M0 -12 V-20 M-10 6 V22 M10 6 V22 M0 6 L8 -6")
+ROTARY = Symbol(VANE, 18.0, 22.0, {}, {"A": -10.0, "B": 10.0}, "actuator")
 
 OF_PISTONS = (displace, guide, press)
 KINDS = (
     ComponentKind(HydraulicCylinder, add_cylinder, (*OF_PISTONS, lift, restrict), symbol=cylinder, nodes=chamber_nodes),
-    ComponentKind(TelescopicCylinder, None, OF_PISTONS, symbol=telescope, nodes=chamber_nodes),
-    ComponentKind(RotaryActuator, add_seal, (*OF_PISTONS, restrict), symbol=rotary, nodes=chamber_nodes),
+    ComponentKind(TelescopicCylinder, None, OF_PISTONS, symbol=TELESCOPE, nodes=chamber_nodes),
+    ComponentKind(RotaryActuator, add_seal, (*OF_PISTONS, restrict), symbol=ROTARY, nodes=chamber_nodes),
 )

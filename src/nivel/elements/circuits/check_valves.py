@@ -129,22 +129,16 @@ def check(data: Mapping[str, Any]) -> Symbol:
     return Symbol(CHECK + pilot, 24.0 if pilot else 9.0, 16.0, {"B": 0.0}, {"A": 0.0} | ({"X": 24.0} if pilot else {}))
 
 
-def shuttle(_: Mapping[str, Any]) -> Symbol:
-    """A shuttle valve."""
-    body = path("M-20 -9 H20 V9 H-20 Z M-13 -5 L-6 0 L-13 5 M13 -5 L6 0 L13 5 M0 -9 V-16")
-    body += path("M-20 0 H-26 V16 M20 0 H26 V16") + '<circle cx="-4" cy="0" r="4"/>'
-    return Symbol(body, 26.0, 16.0, {"C": 0.0}, {"A": -26.0, "B": 26.0})
+SEATS: Final = path("M-20 -9 H20 V9 H-20 Z M-13 -5 L-6 0 L-13 5 M13 -5 L6 0 L13 5 M0 -9 V-16") + path(
+    "M-20 0 H-26 V16 M20 0 H26 V16"
+)
+SHUTTLE = Symbol(SEATS + '<circle cx="-4" cy="0" r="4"/>', 26.0, 16.0, {"C": 0.0}, {"A": -26.0, "B": 26.0})
 
-
-def quick_exhaust(_: Mapping[str, Any]) -> Symbol:
-    """A quick exhaust valve: a shuttle whose common port is A, with its exhaust."""
-    body = path("M-20 -9 H20 V9 H-20 Z M-13 -5 L-6 0 L-13 5 M13 -5 L6 0 L13 5 M0 -9 V-16")
-    body += path("M-20 0 H-26 V16 M20 0 H26 V16") + '<circle cx="10" cy="0" r="4"/>'
-    return Symbol(body, 26.0, 16.0, {"A": 0.0}, {"P": -26.0, "R": 26.0})
-
+# a shuttle whose common port is A, with its exhaust
+QUICK_EXHAUST = Symbol(SEATS + '<circle cx="10" cy="0" r="4"/>', 26.0, 16.0, {"A": 0.0}, {"P": -26.0, "R": 26.0})
 
 KINDS = (
     ComponentKind(CheckValve, add_check, OF_POPPETS, symbol=check),
-    ComponentKind(ShuttleValve, add_shuttle, OF_POPPETS, symbol=shuttle),
-    ComponentKind(QuickExhaust, add_quick_exhaust, OF_POPPETS, symbol=quick_exhaust),
+    ComponentKind(ShuttleValve, add_shuttle, OF_POPPETS, symbol=SHUTTLE),
+    ComponentKind(QuickExhaust, add_quick_exhaust, OF_POPPETS, symbol=QUICK_EXHAUST),
 )

@@ -32,7 +32,6 @@ Ports = Annotated[
     WithJsonSchema({"type": "object", "additionalProperties": {"type": "string"}}),
 ]
 
-
 SENSING: Final = ("LS", "X")  # ports that feel a pressure and take no flow
 
 

@@ -29,9 +29,7 @@ PASSES = Acts(
     applies=lambda own: not own.leakage,
 )
 
-
 INNER_VOLUME = 2e-6  # m³ between two edges of one valve
-
 
 CHECK_OPENS_AT, CHECK_RANGE = 0.5e5, 3e5  # Pa, of check valves within other valves
 

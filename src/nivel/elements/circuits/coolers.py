@@ -21,8 +21,7 @@ heat/(ṁ c): T_out - T_c = (T_in - T_c) exp(-H/(ṁ c)).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 import numpy as np
 
@@ -173,10 +172,8 @@ def add_cooler(builder: SystemBuilder, component: Cooler) -> None:
     builder.elements.add(cool, columns)
 
 
-def cooler(_: Mapping[str, Any]) -> Symbol:
-    """A cooler: heat leaves on both sides."""
-    body = path("M0 -14 L14 0 L0 14 L-14 0 Z M0 -20 V20") + path("M-14 0 l6 -4 v8 z M14 0 l-6 -4 v8 z", "full")
-    return Symbol(body, 14.0, 20.0, {"B": 0.0}, {"A": 0.0})
+# heat leaves on both sides
+BODY = path("M0 -14 L14 0 L0 14 L-14 0 Z M0 -20 V20") + path("M-14 0 l6 -4 v8 z M14 0 l-6 -4 v8 z", "full")
+COOLER = Symbol(BODY, 14.0, 20.0, {"B": 0.0}, {"A": 0.0})
 
-
-KINDS = (ComponentKind(Cooler, add_cooler, (restrict, cool), symbol=cooler),)
+KINDS = (ComponentKind(Cooler, add_cooler, (restrict, cool), symbol=COOLER),)

@@ -106,7 +106,6 @@ def thickening(circuit, a, b):
 
 FLUID = 21  # columns of `Circuit.fluid`
 
-
 NO_GAS = (0.0, 0.0, 0.0, 0.0)  # constants of gases, of a liquid
 
 

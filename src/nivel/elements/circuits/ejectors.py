@@ -7,9 +7,9 @@ Q is linear between its points and zero beyond the last, the greatest vacuum. Th
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
@@ -118,11 +118,9 @@ def add_ejector(builder: SystemBuilder, component: Ejector) -> None:
     builder.elements.add(draw, columns, [component.drive, float(len(component.vacuums)), *points])
 
 
-def ejector(_: Mapping[str, Any]) -> Symbol:
-    """A vacuum generator: a jet that draws from A."""
-    body = path("M-24 -10 H24 V10 H-24 Z M-24 0 H-34 V18 M24 0 H34 V18 M0 -10 V-18")
-    body += path("M-18 -6 L-4 -2 V2 L-18 6 M4 -3 L18 -6 M4 3 L18 6") + path("M-2 -3 L6 0 L-2 3 z")
-    return Symbol(body, 34.0, 18.0, {"A": 0.0}, {"P": -34.0, "R": 34.0})
+# a jet that draws from A
+JET = path("M-18 -6 L-4 -2 V2 L-18 6 M4 -3 L18 -6 M4 3 L18 6") + path("M-2 -3 L6 0 L-2 3 z")
+BODY = path("M-24 -10 H24 V10 H-24 Z M-24 0 H-34 V18 M24 0 H34 V18 M0 -10 V-18") + JET
+EJECTOR = Symbol(BODY, 34.0, 18.0, {"A": 0.0}, {"P": -34.0, "R": 34.0})
 
-
-KINDS = (ComponentKind(Ejector, add_ejector, (restrict, draw), symbol=ejector),)
+KINDS = (ComponentKind(Ejector, add_ejector, (restrict, draw), symbol=EJECTOR),)

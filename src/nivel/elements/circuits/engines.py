@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from math import pi
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component
@@ -20,7 +20,7 @@ from nivel.elements.circuits.pump_control import held_table
 from nivel.elements.circuits.pumps import Pump, Speed, Torque
 from nivel.elements.circuits.rotary import SETTING, Inertia
 from nivel.elements.circuits.rotary import TORQUE as OF_TORQUE
-from nivel.elements.circuits.symbol import Symbol, path, setting
+from nivel.elements.circuits.symbol import Symbol, path
 from nivel.elements.circuits.tangent import add_by_pressure, add_flow_by_column
 from nivel.elements.rows import element
 from nivel.elements.states import Coupled, StateFact
@@ -188,10 +188,7 @@ def add_engine(builder: SystemBuilder, component: Engine) -> None:
     builder.elements.add(drive, columns, numbers)
 
 
-def engine(data: Mapping[str, Any]) -> Symbol:
-    """A combustion engine."""
-    body = path("M-18 -18 H18 V18 H-18 Z M-8 -18 V18 M-8 4 H-18 M18 -2 H28 M18 2 H28")
-    return Symbol(body, 28.0, 18.0, {}, {}, "supply", setting(data, "speed", 30.0 / pi, "rpm"), "M")
+BODY = path("M-18 -18 H18 V18 H-18 Z M-8 -18 V18 M-8 4 H-18 M18 -2 H28 M18 2 H28")
+ENGINE = Symbol(BODY, 28.0, 18.0, row="supply", text="M", key="speed", unit=(30.0 / pi, "rpm"))
 
-
-KINDS = (ComponentKind(Engine, add_engine, (turn, drive), symbol=engine, present=present_engine, last=True),)
+KINDS = (ComponentKind(Engine, add_engine, (turn, drive), symbol=ENGINE, present=present_engine, last=True),)

@@ -105,7 +105,6 @@ GRADES: Final = {
     "HFC 46": Grade(46.0, 9.6, 1085.0, 6.0e-4, 0.35e-8, bulk_modulus=3.5e9, slope=6.0, heat_capacity=3200.0),
 }
 
-
 ATMOSPHERE = 101325.0  # Pa
 LOW_VAPOUR = 100.0  # Pa, of liquids without air that do not say
 AIR_DENSITY = 1.2  # kg/m³ at atmospheric pressure
@@ -279,6 +278,5 @@ else:
 
 
 OIL = Fluid(name="oil")
-
 
 ROOM = 293.15  # K

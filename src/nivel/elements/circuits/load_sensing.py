@@ -5,8 +5,8 @@ The load of a valve is the pressure at A or B, whichever it feeds, and that of i
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import BeforeValidator
@@ -156,10 +156,7 @@ def add_load_signal(builder: SystemBuilder, component: LoadSensing) -> None:
     builder.elements.add(sense_loads, columns + [NONE] * (width - len(columns)), numbers)
 
 
-def shuttle(_: Mapping[str, Any]) -> Symbol:
-    """A load-sensing signal."""
-    body = path("M-18 -8 H18 V8 H-18 Z M-10 -4 L-5 0 L-10 4 M10 -4 L5 0 L10 4") + circle(4.0)
-    return Symbol(body + path("M0 -16 V-8", "dashed"), 18.0, 16.0, {"LS": 0.0}, {}, "supply")
+BODY = path("M-18 -8 H18 V8 H-18 Z M-10 -4 L-5 0 L-10 4 M10 -4 L5 0 L10 4") + circle(4.0) + path("M0 -16 V-8", "dashed")
+SHUTTLE = Symbol(BODY, 18.0, 16.0, {"LS": 0.0}, {}, "supply")
 
-
-KINDS = (ComponentKind(LoadSensing, add_load_signal, (sense_loads,), symbol=shuttle, nodes=signal_nodes, last=True),)
+KINDS = (ComponentKind(LoadSensing, add_load_signal, (sense_loads,), symbol=SHUTTLE, nodes=signal_nodes, last=True),)

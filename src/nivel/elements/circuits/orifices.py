@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component, Rating, problem_of_share
 from nivel.elements.circuits.gases import GAS_CONSTANT, RATIO, REFERENCE
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.restrictions import FIXED, GIVEN, add_flow, rated, restrict
-from nivel.elements.circuits.symbol import Symbol, adjustable, path, varies
+from nivel.elements.circuits.symbol import Symbol, path
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Leakage, Share
 from nivel.machine.given import Field, Maybe
@@ -85,12 +85,7 @@ def flowing(builder: SystemBuilder, ends: tuple[str, str]) -> Node:
     return builder.circuit.nodes[ends[0]]
 
 
-def orifice(data: Mapping[str, Any]) -> Symbol:
-    """A restriction."""
-    body = path("M0 -16 V16 M-8 -8 Q-1 0 -8 8 M8 -8 Q1 0 8 8")
-    if varies(data, "opening"):
-        body += adjustable(-13, 12, 13, -12)
-    return Symbol(body, 13.0, 16.0, {"B": 0.0}, {"A": 0.0})
+BODY = path("M0 -16 V16 M-8 -8 Q-1 0 -8 8 M8 -8 Q1 0 8 8")
+ORIFICE = Symbol(BODY, 13.0, 16.0, {"B": 0.0}, {"A": 0.0}, key="opening", arrow=(-13, 12, 13, -12))
 
-
-KINDS = (ComponentKind(Orifice, add_orifice, (restrict,), symbol=orifice),)
+KINDS = (ComponentKind(Orifice, add_orifice, (restrict,), symbol=ORIFICE),)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated
@@ -11,13 +10,8 @@ from nivel.elements.circuits.composed import INNER_VOLUME, OF_POPPETS, Moved, ad
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
 from nivel.elements.circuits.restrictions import add_flow, rated
-from nivel.elements.circuits.symbol import Symbol, adjustable, in_bar, path, square, varies
-from nivel.machine.core.coefficient import (
-    Leakage,
-    Pressure,
-    Share,
-    VolumeFlow,
-)
+from nivel.elements.circuits.symbol import BAR, Symbol, path, square
+from nivel.machine.core.coefficient import Leakage, Pressure, Share, VolumeFlow
 from nivel.machine.given import Field
 
 if TYPE_CHECKING:
@@ -134,33 +128,24 @@ def add_cartridge(builder: SystemBuilder, component: CartridgeValve) -> None:
     add_single(builder, component, ("A", "B"), factors, 0.0)
 
 
-def pilot_relief(data: Mapping[str, Any]) -> Symbol:
-    """A pilot-operated relief valve with its vent port X."""
-    body = square(False, False) + path("M16 -9 l9 4 l-9 4 z", "full")
-    body += path("M0 -17 H-18 V0 H-12 M26 0 H34 V-20", "dashed")
-    if varies(data, "opens_at"):
-        body += adjustable(13, 9, 27, -10)
-    return Symbol(body, 34.0, 20.0, {"P": 0.0, "X": 34.0}, {"T": 0.0}, "relief", in_bar(data, "opens_at"))
+PILOT = path("M16 -9 l9 4 l-9 4 z", "full") + path("M0 -17 H-18 V0 H-12 M26 0 H34 V-20", "dashed")
+PILOT_RELIEF = Symbol(
+    square(False, False) + PILOT, 34.0, 20.0, {"P": 0.0, "X": 34.0}, {"T": 0.0}, "relief",
+    key="opens_at", unit=BAR, arrow=(13, 9, 27, -10),
+)  # fmt: skip
 
+PILOT_REDUCING = Symbol(
+    square(True, True, drained=True) + PILOT, 34.0, 20.0, {"A": 0.0, "X": 34.0}, {"P": 0.0, "T": 20.0},
+    key="pressure", unit=BAR,
+)  # fmt: skip
 
-def pilot_reducing(data: Mapping[str, Any]) -> Symbol:
-    """A pilot-operated reducing valve with its drain T."""
-    body = square(True, True, drained=True) + path("M16 -9 l9 4 l-9 4 z", "full")
-    body += path("M0 -17 H-18 V0 H-12 M26 0 H34 V-20", "dashed")
-    below = {"P": 0.0, "T": 20.0}
-    return Symbol(body, 34.0, 20.0, {"A": 0.0, "X": 34.0}, below, settings=in_bar(data, "pressure"))
-
-
-def cartridge(data: Mapping[str, Any]) -> Symbol:
-    """A two-way cartridge valve: A below, B beside, X above its spring."""
-    body = path("M-14 -16 H14 V16 H-14 Z M-8 -6 H8 V4 L3 11 H-3 L-8 4 Z M0 16 V22 M14 8 H24 V-22")
-    body += path("M-4 -6 l8 -2 l-8 -3 l8 -2 l-4 -3") + path("M-8 -22 V-16", "dashed")
-    said = in_bar(data, "opens_at")
-    return Symbol(body, 24.0, 22.0, {"X": -8.0, "B": 24.0}, {"A": 0.0}, settings=said)
-
+# A below, B beside, X above its spring
+CONE = path("M-14 -16 H14 V16 H-14 Z M-8 -6 H8 V4 L3 11 H-3 L-8 4 Z M0 16 V22 M14 8 H24 V-22")
+PRESSED = path("M-4 -6 l8 -2 l-8 -3 l8 -2 l-4 -3") + path("M-8 -22 V-16", "dashed")
+CARTRIDGE = Symbol(CONE + PRESSED, 24.0, 22.0, {"X": -8.0, "B": 24.0}, {"A": 0.0}, key="opens_at", unit=BAR)
 
 KINDS = (
-    ComponentKind(PilotReliefValve, add_pilot_relief, OF_POPPETS, symbol=pilot_relief, nodes=inner_nodes("X")),
-    ComponentKind(PilotReducingValve, add_pilot_reducing, OF_POPPETS, symbol=pilot_reducing, nodes=inner_nodes("X")),
-    ComponentKind(CartridgeValve, add_cartridge, OF_POPPETS, symbol=cartridge),
+    ComponentKind(PilotReliefValve, add_pilot_relief, OF_POPPETS, symbol=PILOT_RELIEF, nodes=inner_nodes("X")),
+    ComponentKind(PilotReducingValve, add_pilot_reducing, OF_POPPETS, symbol=PILOT_REDUCING, nodes=inner_nodes("X")),
+    ComponentKind(CartridgeValve, add_cartridge, OF_POPPETS, symbol=CARTRIDGE),
 )

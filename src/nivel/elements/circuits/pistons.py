@@ -51,7 +51,6 @@ OUTPUT, NODE, COORDINATE = 0, 1, 2
 ORIGIN, ROOM, AREA, WIDTH, FIRST_STAGE = 0, 1, 2, 3, 4
 STAGES = 4
 
-
 # pistons: columns of `columns`; COORDINATE as above; outputs: force, power, position, speed, friction
 NODE_A, NODE_B = 1, 3
 FORCE, POWER, POSITION, SPEED, FRICTION = 0, 1, 2, 3, 4

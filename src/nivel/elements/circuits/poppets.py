@@ -13,7 +13,6 @@ from nivel.native.function import leaf, stage
 # columns of `columns`; output: position
 OUTPUT, STATE, SPEED, COMMAND = 0, 1, 2, 3
 
-
 # poppets: columns of `columns` from COMMAND on, a setting; then nodes
 FIRST_NODE, NODES = 4, 4
 # columns of `number`: range of pressures over which it opens [Pa], time constant [s], factor of the setting, constant pressure [Pa],

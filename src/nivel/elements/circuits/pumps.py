@@ -37,7 +37,6 @@ if TYPE_CHECKING:
 
 Speed = Annotated[OneFunction, varying("angular velocity")]
 
-
 Torque = Annotated[OneFunction, varying("torque")]
 
 

@@ -11,7 +11,7 @@ from nivel.elements.circuits.composed import OF_POPPETS, add_check_between, add_
 from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.restrictions import add_flow, rated
-from nivel.elements.circuits.symbol import SPRING, Symbol, adjustable, arrow, check_at, in_bar, path, square, varies
+from nivel.elements.circuits.symbol import BAR, Symbol, adjustable, check_at, in_bar, path, square, varies
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Leakage, Share, Truth
 from nivel.machine.core.record import entry
@@ -147,19 +147,14 @@ def add_soft_start(builder: SystemBuilder, component: SoftStart) -> None:
 
 def reducing(data: Mapping[str, Any]) -> Symbol:
     """A reducing valve."""
-    body = path("M-12 -12 H12 V12 H-12 Z M0 -20 V-12 M0 12 V20") + arrow(0, 12, -12)
-    body += path(f"M12 0 {SPRING}") + path("M0 -17 H-18 V0 H-12", "dashed")
-    drain = "T" in (data.get("ports") or {})
+    body, drain = square(True, True) + path("M0 -17 H-18 V0 H-12", "dashed"), "T" in (data.get("ports") or {})
     body += path("M8 12 V16 H30 V20") if drain else ""
     below = {"P": 0.0} | ({"T": 30.0} if drain else {})
     return Symbol(body, 30.0 if drain else 27.0, 20.0, {"A": 0.0}, below, settings=in_bar(data, "pressure"))
 
 
-def compensator(data: Mapping[str, Any]) -> Symbol:
-    """A pressure compensator."""
-    body = path("M-12 -12 H12 V12 H-12 Z M0 -20 V-12 M0 12 V20") + arrow(0, 12, -12)
-    body += path(f"M12 0 {SPRING}") + path("M0 -17 H-18 V0 H-12 M26 0 H34 V20", "dashed")
-    return Symbol(body, 34.0, 20.0, {"A": 0.0}, {"P": 0.0, "LS": 34.0}, settings=in_bar(data, "margin"))
+FELT = path("M0 -17 H-18 V0 H-12 M26 0 H34 V20", "dashed")
+COMPENSATOR = Symbol(square(True, True) + FELT, 34.0, 20.0, {"A": 0.0}, {"P": 0.0, "LS": 34.0}, key="margin", unit=BAR)
 
 
 def sequence(data: Mapping[str, Any]) -> Symbol:
@@ -175,17 +170,14 @@ def sequence(data: Mapping[str, Any]) -> Symbol:
     return Symbol(body, wide, 20.0, {"A": 0.0}, below, settings=in_bar(data, "opens_at"))
 
 
-def soft_start(_: Mapping[str, Any]) -> Symbol:
-    """A soft start valve: a throttle beside what its outlet opens."""
-    body = path("M-30 -12 H-6 V12 H-30 Z M-18 -20 V-12 M-18 12 V20 M-18 -8 V8 M-18 -8 l-3 6 h6 z")
-    body += path("M-18 -16 H14 V-8 M14 8 V16 H-18 M14 -8 V8 M6 -8 Q13 0 6 8 M22 -8 Q15 0 22 8")
-    body += path("M-18 -18 H-36 V0 H-30", "dashed")
-    return Symbol(body, 36.0, 20.0, {"A": -18.0}, {"P": -18.0})
-
+# a throttle beside what its outlet opens
+VALVE = path("M-30 -12 H-6 V12 H-30 Z M-18 -20 V-12 M-18 12 V20 M-18 -8 V8 M-18 -8 l-3 6 h6 z")
+THROTTLE = path("M-18 -16 H14 V-8 M14 8 V16 H-18 M14 -8 V8 M6 -8 Q13 0 6 8 M22 -8 Q15 0 22 8")
+SOFT_START = Symbol(VALVE + THROTTLE + path("M-18 -18 H-36 V0 H-30", "dashed"), 36.0, 20.0, {"A": -18.0}, {"P": -18.0})
 
 KINDS = (
     ComponentKind(ReducingValve, add_reducing, OF_POPPETS, symbol=reducing),
-    ComponentKind(Compensator, add_compensator, OF_POPPETS, symbol=compensator),
+    ComponentKind(Compensator, add_compensator, OF_POPPETS, symbol=COMPENSATOR),
     ComponentKind(SequenceValve, add_sequence, OF_POPPETS, symbol=sequence),
-    ComponentKind(SoftStart, add_soft_start, OF_POPPETS, symbol=soft_start),
+    ComponentKind(SoftStart, add_soft_start, OF_POPPETS, symbol=SOFT_START),
 )

@@ -11,7 +11,7 @@ from nivel.elements.circuits.composed import OF_POPPETS, PASSES, Moved, add_chec
 from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.restrictions import add_flow, rated
-from nivel.elements.circuits.symbol import SPRING, Symbol, adjustable, arrow, check_at, in_bar, path, square, varies
+from nivel.elements.circuits.symbol import BAR, Symbol, check_at, in_bar, path, square
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Leakage
 from nivel.machine.core.element import Inequalities
@@ -138,13 +138,10 @@ def add_cross_port(builder: SystemBuilder, component: CrossPortRelief) -> None:
             add_check_between(builder, component, f"flow_T{side}", ends, numbers, spring)
 
 
-def relief(data: Mapping[str, Any]) -> Symbol:
-    """A relief valve."""
-    body = path("M-12 -12 H12 V12 H-12 Z M0 -20 V-12 M0 12 V20") + arrow(-5, -12, 12)
-    body += path(f"M12 0 {SPRING}") + path("M0 -17 H-18 V0 H-12", "dashed")
-    if varies(data, "opens_at"):
-        body += adjustable(13, 9, 27, -10)
-    return Symbol(body, 27.0, 20.0, {"P": 0.0}, {"T": 0.0}, "relief", in_bar(data, "opens_at"))
+RELIEF = Symbol(
+    square(False, False) + path("M0 -17 H-18 V0 H-12", "dashed"), 27.0, 20.0, {"P": 0.0}, {"T": 0.0}, "relief",
+    key="opens_at", unit=BAR, arrow=(13, 9, 27, -10),
+)  # fmt: skip
 
 
 def unloading(data: Mapping[str, Any]) -> Symbol:
@@ -175,7 +172,7 @@ def cross_port(data: Mapping[str, Any]) -> Symbol:
 
 
 KINDS = (
-    ComponentKind(ReliefValve, add_relief, OF_POPPETS, symbol=relief),
+    ComponentKind(ReliefValve, add_relief, OF_POPPETS, symbol=RELIEF),
     ComponentKind(UnloadingValve, add_unloading, OF_POPPETS, symbol=unloading),
     ComponentKind(CrossPortRelief, add_cross_port, OF_POPPETS, symbol=cross_port),
 )

@@ -40,7 +40,6 @@ from nivel.native.function import stage
 
 Setting = Annotated[OneFunction, varying("number")]
 
-
 Inertia = Annotated[OneNumber, Quantity("inertia", positive=True)]
 PositiveAngularVelocity = Annotated[OneNumber, Quantity("angular velocity", positive=True)]
 COULOMB_SHARE = 0.6  # of the friction at the nominal point, that does not depend on the speed
@@ -126,7 +125,6 @@ FLOW, TORQUE, POWER, SETTING = 0, 1, 2, 3
 DISPLACEMENT, RATIO, LEAK, VISCOUS, DRY, PERIODS, RIPPLE = 0, 1, 2, 3, 4, 5, 6
 # speed [rad/s] and difference of pressure [Pa] within which signs are rounded
 SLOW, SMALL = 1.0, 1e5
-
 
 # settings: columns of `columns`; output: that of the machine; STATE: of load sensing, or NONE; nodes P and LS
 STATE, FUNCTION, HIGH, SENSED = 1, 2, 3, 4

@@ -19,10 +19,7 @@ from nivel.elements.circuits.ways import directional_valve
 from nivel.elements.states import StateFact
 from nivel.kernels.record.record import NONE
 from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.coefficient import (
-    Leakage,
-    PositiveNumber,
-)
+from nivel.machine.core.coefficient import Leakage, PositiveNumber
 from nivel.machine.core.coefficient import Share as Proportion
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Maybe, OneNumber

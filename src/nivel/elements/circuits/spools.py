@@ -86,7 +86,6 @@ LEAST, FREQUENCY, DAMPING, PRELOAD, FRICTION, SLOW, PLAY_WIDTH, DEAD, DITHER, DI
 # U of the preload, τ [s] of the play, stiffness of the stop over that of the spring
 CENTRE, PLAY_TIME, STOP = 0.005, 1e-3, 100.0
 
-
 # valves that switch: columns of `columns` as above to COMMAND, STATE: e; of `number`: least position, rates [1/s] up and down, a, b
 UP, DOWN, BEGIN, END = 1, 2, 3, 4
 ROUNDED = 0.01  # E

@@ -9,6 +9,7 @@ from nivel.elements.circuits.component import SENSING
 from nivel.lazy import dataclass, field, replace
 
 SPRING: Final = "l3 -5 l4 10 l4 -10 l3 5"
+BAR: Final = 1e-5, "bar"
 LETTER: Final = 6.4  # px, at 11 px
 PIN: Final = 22.0  # px between pins of a box
 
@@ -20,6 +21,8 @@ class Symbol:
     body : SVG about (0, 0). wide, high : half of its size. above, below : x of the pin of each port above, or below, the symbol.
     row : where it stands in the diagram; a relief valve beside what it protects, "" between actuators and pumps. settings : said below its
     name. text : in the middle of a box, whose pins have the letters of their ports.
+    key : of its record, which is said below its name in a `unit`, a factor and its word; arrow : from where to where its oblique arrow
+    goes, where it varies.
     """
 
     body: str
@@ -30,6 +33,14 @@ class Symbol:
     row: Literal["actuator", "valve", "relief", "supply", ""] = ""
     settings: tuple[str, ...] = ()
     text: str = ""
+    key: str = ""
+    unit: tuple[float, str] | None = None
+    arrow: tuple[float, float, float, float] | None = None
+
+    def __call__(self, data: Mapping[str, Any]) -> Symbol:
+        """The symbol of a component with this record, as JSON."""
+        body = self.body + adjustable(*self.arrow) if self.arrow and varies(data, self.key) else self.body
+        return replace(self, body=body, settings=setting(data, self.key, *self.unit) if self.unit else self.settings)
 
 
 def path(d: str, style: str = "") -> str:

@@ -6,8 +6,8 @@ an accumulator; that of an open one gives way to the liquid at atmospheric press
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component, VaryingTemperature
@@ -222,14 +222,11 @@ def add_reservoir(builder: SystemBuilder, component: Reservoir) -> None:
     builder.circuit.signals[f"{name}.temperature"] = (node.output + 1, known)
 
 
-def source(_: Mapping[str, Any]) -> Symbol:
-    """A supply of constant pressure."""
-    body = circle(12.0) + path("M0 -12 l-6 10 h12 z", "full") + path("M0 -12 V-18")
-    return Symbol(body, 12.0, 18.0, {"P": 0.0}, {}, "supply")
-
+BODY = circle(12.0) + path("M0 -12 l-6 10 h12 z", "full") + path("M0 -12 V-18")
+SOURCE = Symbol(BODY, 12.0, 18.0, {"P": 0.0}, {}, "supply")
 
 KINDS = (
     ComponentKind(Volume, None, (), nodes=volume_nodes),
-    ComponentKind(Tank, None, (), symbol=source, nodes=tank_nodes),
+    ComponentKind(Tank, None, (), symbol=SOURCE, nodes=tank_nodes),
     ComponentKind(Reservoir, None, (find_levels,), nodes=reservoir_nodes, present=add_reservoir),
 )

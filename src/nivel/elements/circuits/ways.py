@@ -103,11 +103,7 @@ def boxes(
 
 
 def _box(
-    x: float,
-    wide: float,
-    pairs: Sequence[str | tuple[str, str]],
-    top: Mapping[str, float],
-    bottom: Mapping[str, float],
+    x: float, wide: float, pairs: Sequence[str | tuple[str, str]], top: Mapping[str, float], bottom: Mapping[str, float]
 ) -> Iterator[str]:
     """A box with arrows of what it joins and stubs of what it closes."""
     high = 0.5 * BOX

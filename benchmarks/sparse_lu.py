@@ -14,7 +14,6 @@ import numpy as np
 
 from nivel.kernels.algebra.sparse_lu import factorise_sparse_lu, solve_sparse_lu
 from nivel.native.function import leaf
-from nivel.system.elimination.elimination_hubs import waiting
 from nivel.system.elimination.factor_plan import FactorPlan, plan_factor
 
 LINKS = (1, 8, 64, 256, 2000)
@@ -34,11 +33,11 @@ def solve(tables, L, U, Dinv, b, work, repeat):
         solve_sparse_lu(tables, L, U, Dinv, b, work)
 
 
-def chain(links: int, early: bool) -> FactorPlan:
-    """Groups 2 k: bodies; 2 k + 1: joints. early : joints wait for their outer bodies only."""
+def chain(links: int) -> FactorPlan:
+    """Groups 2 k: bodies; 2 k + 1: joints."""
     joints = {2 * k + 1: [2 * k - 2, 2 * k] if k else [0] for k in range(links)}
     couples = [(joint, body) for joint, bodies in joints.items() for body in bodies]
-    return plan_factor([6, 5] * links, [False, True] * links, couples, waiting(joints) if early else None)
+    return plan_factor([6, 5] * links, [False, True] * links, couples)
 
 
 def values(plan: FactorPlan, rng: np.random.Generator, dtype: type) -> np.ndarray:
@@ -75,33 +74,30 @@ def seconds(call: Callable[[int], object]) -> float:
 
 def main() -> None:
     rng = np.random.default_rng(0)
-    print(
-        "links  joints wait for  dtype       plan [ms]  factorise [µs/link]  solve [µs/link]  nonzeros/link  residual"
-    )
+    print("links  dtype       plan [ms]  factorise [µs/link]  solve [µs/link]  nonzeros/link  residual")
     for links in LINKS:
-        for early in (False, True):
-            begin = time.perf_counter()
-            plan = chain(links, early)
-            planned = time.perf_counter() - begin
-            for dtype in (float, complex):
-                value = values(plan, rng, dtype)
-                L, U, Dinv, work = plan.workspace(dtype)
-                b = rng.standard_normal(plan.size).astype(dtype)
-                x = b.copy()
-                if factorise(plan.tables, value, L, U, Dinv, work, 1) != -1:
-                    raise RuntimeError("a pivot failed")
-                solve(plan.tables, L, U, Dinv, x, work, 1)
-                row = np.repeat(np.arange(plan.size), np.diff(plan.row_start.astype(np.int64)))
-                product = np.zeros(plan.size, dtype)
-                np.add.at(product, row, value * x[plan.column])
-                residual = np.abs(product - b).max() / np.abs(x).max()
-                factorised = seconds(lambda n: factorise(plan.tables, value, L, U, Dinv, work, n))  # noqa: B023
-                solved = seconds(lambda n: solve(plan.tables, L, U, Dinv, np.zeros_like(b), work, n))  # noqa: B023
-                print(
-                    f"{links:5d}  {'outer body' if early else 'both bodies':15s}  {dtype.__name__:10s}  {planned * 1e3:9.1f}"
-                    f"  {factorised / links * 1e6:19.3f}  {solved / links * 1e6:15.3f}"
-                    f"  {(plan.L_size + plan.U_size) / links:13.0f}  {residual:8.1e}"
-                )
+        begin = time.perf_counter()
+        plan = chain(links)
+        planned = time.perf_counter() - begin
+        for dtype in (float, complex):
+            value = values(plan, rng, dtype)
+            L, U, Dinv, work = plan.workspace(dtype)
+            b = rng.standard_normal(plan.size).astype(dtype)
+            x = b.copy()
+            if factorise(plan.tables, value, L, U, Dinv, work, 1) != -1:
+                raise RuntimeError("a pivot failed")
+            solve(plan.tables, L, U, Dinv, x, work, 1)
+            row = np.repeat(np.arange(plan.size), np.diff(plan.row_start.astype(np.int64)))
+            product = np.zeros(plan.size, dtype)
+            np.add.at(product, row, value * x[plan.column])
+            residual = np.abs(product - b).max() / np.abs(x).max()
+            factorised = seconds(lambda n: factorise(plan.tables, value, L, U, Dinv, work, n))  # noqa: B023
+            solved = seconds(lambda n: solve(plan.tables, L, U, Dinv, np.zeros_like(b), work, n))  # noqa: B023
+            print(
+                f"{links:5d}  {dtype.__name__:10s}  {planned * 1e3:9.1f}"
+                f"  {factorised / links * 1e6:19.3f}  {solved / links * 1e6:15.3f}"
+                f"  {(plan.L_size + plan.U_size) / links:13.0f}  {residual:8.1e}"
+            )
 
 
 if __name__ == "__main__":

@@ -139,7 +139,7 @@ def test_mass_is_kept_to_round_off():
 @pytest.mark.parametrize(("p", "grown"), [(50.0, 5.0), (100.0, 10.0), (150.0, 12.0), (250.0, 16.0)])
 def test_a_hose_grows_along_its_curve(p, grown):
     """The mass at a pressure above the air is that of the density times the volume of the curve."""
-    from nivel.elements.circuits.hoses import VolumeExpansion, hose_points
+    from nivel.elements.circuits.curves import VolumeExpansion, hose_points
     from nivel.elements.circuits.volumes import filled_room, hose_room
 
     curve = VolumeExpansion(pressures=("100 bar", "200 bar"), volumes=("10 cm^3", "14 cm^3"))

@@ -4,7 +4,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nivel.system.elimination.elimination import minimum_degree, plan
+from nivel.system.elimination.elimination import plan
+from nivel.system.elimination.factor_plan import minimum_degree
 
 
 @given(
@@ -35,7 +36,7 @@ def test_pattern_of_the_factor_holds_every_entry_of_a_numerical_one(joints):
 def test_a_chain_makes_no_fill():
     count = 50
     neighbours = [{k for k in (i - 1, i + 1) if 0 <= k < count} for i in range(count)]
-    order = minimum_degree([5] * count, neighbours)
+    order, _ = minimum_degree([5] * count, neighbours, {})
     position = {group: k for k, group in enumerate(order)}
     for k, group in enumerate(order):
         later = [n for n in neighbours[group] if position[n] > k]

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nivel.system.elimination.factor_plan import minimum_degree, plan_factor
-from saddle_points import chain, ring, star
+from saddle_points import chain, ring
 
 pairs = st.lists(st.tuples(st.integers(0, 9), st.integers(0, 9)), max_size=25)
 flags = st.lists(st.booleans(), min_size=10, max_size=10)
@@ -74,29 +74,20 @@ def test_the_group_with_the_fewest_unknowns_beside_it_is_first():
 
 def test_constraints_that_wait_for_each_other_are_refused():
     with pytest.raises(ValueError, match="wait for each other"):
-        plan_factor([1, 1], [True, True], [(0, 1)], after={0: [1], 1: [0]})
+        minimum_degree([1, 1], [{1}, {0}], {0: [1], 1: [0]})
 
 
-@pytest.mark.parametrize("early", [False, True])
 @pytest.mark.parametrize("machine", [chain, ring])
-def test_factors_of_chains_grow_by_the_same_for_every_link(machine, early):
-    sizes = [machine(count).plan(early=early) for count in (50, 100, 150)]
+def test_factors_of_chains_grow_by_the_same_for_every_link(machine):
+    sizes = [machine(count).plan() for count in (50, 100, 150)]
     for name in ("L_size", "U_size"):
         short, middle, long = (getattr(plan, name) for plan in sizes)
         assert long - middle == middle - short
 
 
-def test_factors_of_a_star_grow_by_the_same_for_every_ray_where_joints_wait_for_outer_bodies_only():
-    sizes = [star(count).plan(early=True) for count in (100, 150, 200)]
-    assert sizes[2].L_size - sizes[1].L_size == sizes[1].L_size - sizes[0].L_size
-    # per ray its body (6 × 6), its joint (5 × 5), and the joint beside both bodies
-    assert sizes[2].U_size - sizes[1].U_size == 50 * (6 * 6 + 6 * 5 + 5 * 5 + 5 * 6)
-
-
 def test_fill_is_the_share_of_a_full_matrix():
     assert plan_factor([4, 4], [False, False], [(0, 1)]).fill == 1
     assert plan_factor([4, 4], [False, False], []).fill == 0.5
-    assert star(100).plan().fill > 10 * star(100).plan(early=True).fill
 
 
 def test_blocks_join_groups_that_meet_the_same_unknowns():

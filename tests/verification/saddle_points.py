@@ -6,7 +6,6 @@ import numpy as np
 import scipy.sparse
 
 from nivel.kernels.algebra.sparse_lu import factorise_sparse_lu, solve_sparse_lu
-from nivel.system.elimination.elimination_hubs import waiting
 from nivel.system.elimination.factor_plan import plan_factor
 
 
@@ -26,8 +25,8 @@ class Linkage:
     def constraint(self):
         return [g in self.joints for g in range(len(self.sizes))]
 
-    def plan(self, *, early=False):
-        return plan_factor(self.sizes, self.constraint, self.couples, waiting(self.joints) if early else None)
+    def plan(self):
+        return plan_factor(self.sizes, self.constraint, self.couples)
 
 
 def linkage(joints, rows, springs=()):

@@ -20,7 +20,7 @@ from nivel.machine.laws.symbols import find_symbol, is_output
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.linear_function import LinearFunction
+from nivel.machine.units.formula import LinearFunction
 from nivel.machine.uses.coordinate_reference import Kind, resolve
 from nivel.system.circuit_tables import CircuitTable
 from nivel.system.joint_frames import Directions, Placed, as_placed, marker_place, seen_from

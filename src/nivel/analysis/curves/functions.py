@@ -18,7 +18,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.arithmetic import LOCAL_SYMBOLS
 from nivel.machine.units.bounds import Interval, bounds_of, values_of
 from nivel.machine.units.expression import Expression
-from nivel.machine.units.linear_function import linear_function
+from nivel.machine.units.formula import linear_function
 from nivel.machine.units.tree import TIME
 from nivel.native.signature import LAW
 from nivel.system.laws.laws import law_address

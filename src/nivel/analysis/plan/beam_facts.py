@@ -14,7 +14,7 @@ from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.beam_section import BeamSection
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beams.elements import elements_of, gauss, lagrange, skew
-from nivel.system.beams.gradient_frequencies import fastest_of_gradients
+from nivel.system.beams.gradient_beams import fastest_of_gradients
 from nivel.system.beams.nodes import with_nodes
 
 Array = NDArray[np.float64]

@@ -21,8 +21,8 @@ import numpy as np
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component
+from nivel.elements.circuits.curves import LengthExpansion, hose_points
 from nivel.elements.circuits.density import DENSITY, MODULUS, VISCOSITY, thickening
-from nivel.elements.circuits.hoses import LengthExpansion, hose_points
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.ledger import lose_between, transfer
 from nivel.elements.circuits.nodes import NO_ACCUMULATOR, growth_of_walls, volume_node

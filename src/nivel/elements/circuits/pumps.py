@@ -29,7 +29,7 @@ from nivel.machine.core.coefficient import Displacement, Share
 from nivel.machine.core.record import Name
 from nivel.machine.given import Field, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.time_function import OneFunction, varying
-from nivel.machine.units.linear_function import linear
+from nivel.machine.units.formula import linear
 from nivel.machine.units.quantity import Duration, Quantity
 
 if TYPE_CHECKING:

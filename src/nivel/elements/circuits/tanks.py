@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component, VaryingTemperature
+from nivel.elements.circuits.curves import VolumeExpansion, hose_points
 from nivel.elements.circuits.density import HEAT_CAPACITY, START
 from nivel.elements.circuits.fluids import ATMOSPHERE
-from nivel.elements.circuits.hoses import VolumeExpansion, hose_points
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import (
     NO_ACCUMULATOR,

@@ -18,8 +18,7 @@ from nivel.machine.core.checked import Problem
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.table import Interpolation, Table
 from nivel.machine.laws.time_function import ManyFunctions
-from nivel.machine.units.formula import Formula, formula, sum_of
-from nivel.machine.units.linear_function import linear
+from nivel.machine.units.formula import Formula, formula, linear, sum_of
 from nivel.machine.units.quantity import listed
 from nivel.machine.units.tree import Lookup as Curve
 from nivel.machine.units.tree import Node, Operation, Signal

@@ -13,7 +13,7 @@ from nivel.machine.control.laws import limited
 from nivel.machine.control.part import Part
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.given import Field, Maybe
-from nivel.machine.units.linear_function import linear
+from nivel.machine.units.formula import linear
 from nivel.machine.units.quantity import Duration
 
 

@@ -21,7 +21,7 @@ from nivel.machine.core.checked import Problem
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.laws.time_function import ManyFunctions
-from nivel.machine.units.linear_function import linear
+from nivel.machine.units.formula import linear
 from nivel.machine.units.quantity import Duration, Quantity, listed
 
 Array = NDArray[np.float64]

@@ -14,8 +14,7 @@ from nivel.machine.control.condition import Condition
 from nivel.machine.control.part import VALUE, Part
 from nivel.machine.core.checked import Problem
 from nivel.machine.given import Field, Maybe
-from nivel.machine.units.formula import formula
-from nivel.machine.units.linear_function import linear
+from nivel.machine.units.formula import formula, linear
 from nivel.machine.units.quantity import Duration
 
 

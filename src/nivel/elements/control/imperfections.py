@@ -17,8 +17,7 @@ from nivel.machine.core.checked import Problem
 from nivel.machine.core.record import Name, Record, entry
 from nivel.machine.given import Field, Given, Maybe, OneNumber, TwoNumbers
 from nivel.machine.laws.time_function import SomeFunction
-from nivel.machine.units.formula import Formula, formula, sum_of
-from nivel.machine.units.linear_function import linear
+from nivel.machine.units.formula import Formula, formula, linear, sum_of
 from nivel.machine.units.quantity import Duration, Quantity, listed
 from nivel.machine.units.tree import Call, Operation, Time
 from nivel.machine.units.tree import Number as Constant

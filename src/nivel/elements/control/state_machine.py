@@ -15,8 +15,7 @@ from nivel.machine.core.checked import Problem
 from nivel.machine.core.record import Name, Record, entry, unknown_word
 from nivel.machine.given import Field, Given, Maybe
 from nivel.machine.laws.time_function import SomeFunction, TimeFunction
-from nivel.machine.units.formula import Formula, formula
-from nivel.machine.units.linear_function import linear
+from nivel.machine.units.formula import Formula, formula, linear
 from nivel.machine.units.tree import Call, Node, Operation, Signal
 from nivel.machine.units.tree import Number as Constant
 

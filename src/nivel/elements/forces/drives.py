@@ -38,7 +38,7 @@ from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.coordinate_function import CoordinateEffortFunction
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import OneFunction, TimeFunction, varying
-from nivel.machine.units.linear_function import linear
+from nivel.machine.units.formula import linear
 from nivel.machine.units.quantity import AngularVelocity, Quantity, listed
 from nivel.machine.uses.coordinate_reference import CoordinateReference, resolve
 from nivel.native.function import stage

@@ -25,8 +25,7 @@ from nivel.machine.signals.event import Event
 from nivel.machine.signals.input import Input
 from nivel.machine.signals.sensor import Sensor
 from nivel.machine.signals.state import State
-from nivel.machine.units.formula import Formula
-from nivel.machine.units.linear_function import LinearFunction
+from nivel.machine.units.formula import Formula, LinearFunction
 from nivel.machine.uses.coordinate_reference import resolve
 
 

@@ -16,7 +16,7 @@ from nivel.machine.core.coefficient import NotNegative
 from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, ManyNumbers, ManyRows, Maybe, OneNumber, TwoNumbers
 from nivel.machine.laws.time_function import Measured
-from nivel.machine.units.linear_function import linear
+from nivel.machine.units.formula import linear
 from nivel.machine.units.quantity import ANY, Duration, Quantity, listed, of_one_kind
 
 Input = Annotated[Measured, BeforeValidator(of_one_kind)]

@@ -7,8 +7,7 @@ from typing import Literal
 from nivel.lazy import dataclass
 from nivel.machine.control.unit_output import UnitOutput
 from nivel.machine.laws.time_function import TimeFunction, signals_of
-from nivel.machine.units.formula import Formula
-from nivel.machine.units.linear_function import LinearFunction
+from nivel.machine.units.formula import Formula, LinearFunction
 
 Role = Literal["signal", "state", "sample", "memory"]
 

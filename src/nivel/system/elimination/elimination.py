@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import heapq
 from collections.abc import Sequence
 from functools import lru_cache
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.lazy import dataclass
+from nivel.system.elimination.factor_plan import minimum_degree
 
 Index = NDArray[np.uint32]
 Groups = tuple[tuple[int, ...], ...]
@@ -28,36 +28,6 @@ class Elimination:
     P_start: Index
     P_column: Index
     P_entry: Index
-
-
-def minimum_degree(groups: Sequence[int], neighbours: Sequence[set[int]]) -> list[int]:
-    """Order of groups of rows by minimum degree: always the one with the fewest rows beside it, its neighbours then joined.
-
-    groups : rows in each group; neighbours : groups that share a body with each (without itself). Ties: the earlier group.
-    """
-    adjacent = [set(others) for others in neighbours]
-
-    def degree(g: int) -> int:
-        return sum(groups[other] for other in adjacent[g])
-
-    heap = [(degree(g), g) for g in range(len(groups))]
-    heapq.heapify(heap)
-    done: list[int] = []
-    eliminated = [False] * len(groups)
-    while heap:
-        claimed, g = heapq.heappop(heap)
-        if eliminated[g]:
-            continue
-        if claimed != degree(g):
-            heapq.heappush(heap, (degree(g), g))
-            continue
-        eliminated[g] = True
-        done.append(g)
-        for other in adjacent[g]:
-            adjacent[other] |= adjacent[g]
-            adjacent[other] -= {g, other}
-            heapq.heappush(heap, (degree(other), other))
-    return done
 
 
 def plan(rows: Sequence[Sequence[int]], block_row: Sequence[int], block_body: Sequence[int]) -> Elimination:
@@ -80,7 +50,8 @@ def _planned(rows: Groups, block_row: tuple[int, ...], block_body: tuple[int, ..
         around = {group_of[block_row[block]] for block in blocks}
         for g in around:
             neighbours[g] |= around - {g}
-    order = [row for g in minimum_degree([len(group) for group in rows], neighbours) for row in rows[g]]
+    groups, _ = minimum_degree([len(group) for group in rows], neighbours, {})
+    order = [row for g in groups for row in rows[g]]
     position = {row: k for k, row in enumerate(order)}
     at = [position[row] for row in block_row]
 

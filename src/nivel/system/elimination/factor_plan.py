@@ -67,15 +67,11 @@ def plan_factor(
     sizes: Sequence[int],
     constraint: Sequence[bool],
     couples: Iterable[tuple[int, int]],
-    after: Mapping[int, Collection[int]] | None = None,
 ) -> FactorPlan:
     """Plan the factors of a matrix of groups of unknowns, numbered one after the other.
 
     sizes : unknowns of each group; constraint : whether it is one of constraints; couples : pairs of groups with entries at (a, b) and
     (b, a). Diagonal blocks are always there.
-    after : for some constraints, the groups they wait for, in place of all that they couple with that are no constraints. Of a joint of
-    a tree it may be the outer body alone, of one that closes a loop it must be all bodies of the loop (through the ground: all up to the
-    roots); a hub with many joints then makes no fill.
     """
     count = len(sizes)
     adjacent: list[set[int]] = [set() for _ in range(count)]
@@ -86,7 +82,6 @@ def plan_factor(
     start = np.concatenate([[0], np.cumsum(np.asarray(sizes, dtype=np.int64))]).astype(np.int64)
     row_start, column = _pattern(start, adjacent)
     waits = {g: {other for other in adjacent[g] if not constraint[other]} for g in range(count) if constraint[g]}
-    waits.update({g: set(groups) for g, groups in (after or {}).items()})
     order, beside = _postordered(*minimum_degree(sizes, adjacent, waits))
     return _tables(start, row_start, column, order, beside)
 

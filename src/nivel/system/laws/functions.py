@@ -17,9 +17,8 @@ from nivel.machine.control.unit_output import UnitOutput
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.units.expression import Expression
-from nivel.machine.units.formula import Formula
+from nivel.machine.units.formula import Formula, LinearFunction, linear_function
 from nivel.machine.units.interpolation import SMOOTH
-from nivel.machine.units.linear_function import LinearFunction, linear_function
 from nivel.machine.units.tree import TIME as TIME_SYMBOL
 from nivel.machine.units.tree import Node
 from nivel.system.laws.laws import law_address

@@ -38,6 +38,7 @@ from nivel.kernels.record.record import (
     Joints,
     Outputs,
     Record,
+    Rotations,
     Sensors,
     Watched,
 )
@@ -66,9 +67,8 @@ from nivel.system.saddle import friction_parts, friction_tables, moved_masses, s
 from nivel.system.signals.control import add_control
 from nivel.system.signals.sensors import sensor_columns
 from nivel.system.signals.user_states import add_states, sampled_states
-from nivel.system.states.three_coordinates import no_rotations
 from nivel.system.system import Equations, System
-from nivel.system.tables import index_array
+from nivel.system.tables import empty, index_array
 
 
 def add_inputs(builder: SystemBuilder) -> None:
@@ -182,7 +182,7 @@ def _record(builder: SystemBuilder, rows: RowTable, units: list[str], equations:
     saddle = saddle_tables(rows, builder, extra, len(machine.bodies), count, equations)
     record = Record(
         bodies=bodies,
-        rotations=no_rotations(),
+        rotations=empty(Rotations),
         markers=markers,
         coordinates=builder.coordinates.arrays(),
         constraints=constraints,

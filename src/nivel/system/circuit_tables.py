@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.elements.circuits.density import FLUID
 from nivel.elements.circuits.nodes import Node
@@ -12,52 +11,7 @@ from nivel.elements.states import Coupled
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.record import NONE, Circuit
 from nivel.lazy import dataclass, field
-from nivel.system.tables import Array, index_array
-
-Index = NDArray[np.uint32]
-
-
-def tangent_tables(
-    family: Index,
-    pistons: Index,
-    state: Index,
-    unknown: Index,
-    coordinate: Index,
-    number: Index,
-    signal: Index,
-    source: Index,
-    velocities: int,
-) -> CircuitTangent:
-    """Room for the derivatives of circuits. family … source : as in `CircuitTangent`."""
-    states, count, nodes = len(state), len(coordinate), len(signal)
-    size, width = states + count, states + 2 * count
-    return CircuitTangent(
-        family=family,
-        pistons=pistons,
-        state=state,
-        unknown=unknown,
-        coordinate=coordinate,
-        number=number,
-        signal=signal,
-        source=source,
-        by_mass=np.zeros(nodes),
-        by_stroke=np.zeros((nodes, count)),
-        effort=np.zeros((count, width)),
-        slopes=np.zeros((size, width)),
-        direction=np.zeros((count, velocities)),
-        response=np.zeros((count, velocities)),
-        compliance=np.zeros((count, count)),
-        matrix=np.zeros((2, size, size)),
-        b=np.zeros(size),
-        load=np.zeros(count),
-        travel=np.zeros((2, count)),
-    )
-
-
-def no_tangent() -> CircuitTangent:
-    """For methods that do not need it: all arrays empty."""
-    none = index_array([], 1)
-    return tangent_tables(none, none, none, none, none, none, none, index_array([], 2), 0)
+from nivel.system.tables import Array, empty, index_array
 
 
 @dataclass
@@ -100,5 +54,5 @@ class CircuitTable:
             inflow=np.zeros(2 * count),
             power=np.zeros(4),
             stored=np.zeros(1),
-            tangent=no_tangent(),
+            tangent=empty(CircuitTangent),
         )

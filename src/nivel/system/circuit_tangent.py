@@ -14,7 +14,6 @@ from nivel.elements.circuits.phase import SLOPES
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.hook import FAMILIES, Family
 from nivel.kernels.record.record import NONE, Hooks, Record
-from nivel.system.circuit_tables import tangent_tables
 from nivel.system.elimination.factor_plan import minimum_degree
 from nivel.system.system import System
 
@@ -58,16 +57,28 @@ def _tables(system: System, family: Index) -> CircuitTangent:
     unknown = _numbers(state, len(record.elements.state))
     own = _families(record)
     guides = own.index(pistons.guide) if pistons.guide in own else NONE
-    return tangent_tables(
-        family,
-        np.array([guides], dtype=np.uint32),
-        state,
-        unknown,
-        coordinate,
-        _numbers(coordinate, len(record.coordinates.what)),
-        _signals(record, unknown),
-        _sources(record, unknown),
-        len(record.tree.column),
+    states, count, nodes, velocities = len(state), len(coordinate), len(record.circuit.node), len(record.tree.column)
+    size, width = states + count, states + 2 * count
+    return CircuitTangent(
+        family=family,
+        pistons=np.array([guides], dtype=np.uint32),
+        state=state,
+        unknown=unknown,
+        coordinate=coordinate,
+        number=_numbers(coordinate, len(record.coordinates.what)),
+        signal=_signals(record, unknown),
+        source=_sources(record, unknown),
+        by_mass=np.zeros(nodes),
+        by_stroke=np.zeros((nodes, count)),
+        effort=np.zeros((count, width)),
+        slopes=np.zeros((size, width)),
+        direction=np.zeros((count, velocities)),
+        response=np.zeros((count, velocities)),
+        compliance=np.zeros((count, count)),
+        matrix=np.zeros((2, size, size)),
+        b=np.zeros(size),
+        load=np.zeros(count),
+        travel=np.zeros((2, count)),
     )
 
 

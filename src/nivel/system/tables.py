@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import reduce
 from itertools import pairwise
+from typing import Any, TypeVar, get_args, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,12 +19,21 @@ from nivel.kernels.record.record import NONE, Coordinates, Elements, Markers
 from nivel.lazy import dataclass, field
 
 Array = NDArray[np.float64]
+AnyRecord = TypeVar("AnyRecord", bound=tuple[Any, ...])
 
 
 def index_array(values: object, columns: int) -> NDArray[np.uint32]:
     """uint32 array of `values`: (n, columns), or (n,) for one column."""
     array = np.array(values, dtype=np.uint32)
     return array.reshape(-1) if columns == 1 else array.reshape(-1, columns)
+
+
+def empty(record_class: type[AnyRecord]) -> AnyRecord:
+    """A record without numbers: all its arrays are empty."""
+    kinds = (get_args(kind) for kind in get_type_hints(record_class, include_extras=True).values())
+    return record_class(
+        *(np.zeros((0,) * dimensions, get_args(get_args(array)[1])[0]) for array, dimensions, _ in kinds)
+    )
 
 
 def padded(rows: list[list[int]] | list[list[float]], fill: float) -> Array:

@@ -32,6 +32,7 @@ from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Quantity, Rate, fault
 
 if TYPE_CHECKING:
+    from nivel.elements.circuits.sections import Section
     from nivel.system.builder import SystemBuilder
 
 
@@ -186,22 +187,29 @@ def _add_spool(builder: SystemBuilder, component: DirectionalValve) -> int:
     if component.switching is not None:
         add_switch(builder, name, output, component.command, component.switching, component.ways in CENTRED)
         return output
-    state, speed = NONE, NONE
-    if component.frequency is not None:
-        state = builder.own_state(StateFact(f"{name}.spool", "1", f"position of {name}", 0.0, 1.0))
-        if component.rate_limit is None:
-            speed = builder.own_state(
-                StateFact(f"{name}.spool_speed", "1/s", f"speed of {name}", 0.0, frequency(component))
-            )
-    least = -1.0 if component.ways in CENTRED else 0.0
-    columns = [output, state, speed, builder.function(component.command)]
-    builder.elements.add(
-        move, columns, [least, frequency(component), component.damping_ratio, component.rate_limit or 0.0]
-    )
+    add_spool(builder, component, output, -1.0 if component.ways in CENTRED else 0.0, component.rate_limit)
     return output
 
 
-def frequency(component: DirectionalValve) -> float:
+def add_spool(
+    builder: SystemBuilder,
+    component: DirectionalValve | Section,
+    output: int,
+    least: float,
+    rate_limit: float | None = None,
+) -> None:
+    """A spool whose position is this output, from `least` on."""
+    name, state, speed = component.name, NONE, NONE
+    if component.frequency is not None:
+        state = builder.own_state(StateFact(f"{name}.spool", "1", f"position of {name}", 0.0, 1.0))
+        if rate_limit is None:
+            words = f"speed of {name}"
+            speed = builder.own_state(StateFact(f"{name}.spool_speed", "1/s", words, 0.0, frequency(component)))
+    columns = [output, state, speed, builder.function(component.command)]
+    builder.elements.add(move, columns, [least, frequency(component), component.damping_ratio, rate_limit or 0.0])
+
+
+def frequency(component: DirectionalValve | Section) -> float:
     """[rad/s] natural frequency of the spool; 0 without one."""
     return 2.0 * math.pi * (component.frequency or 0.0)
 

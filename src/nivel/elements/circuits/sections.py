@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated, VaryingPressure, problem_of_share
 from nivel.elements.circuits.composed import INNER_VOLUME, Moved, sums
-from nivel.elements.circuits.directional_valves import move
+from nivel.elements.circuits.directional_valves import add_spool, move
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
 from nivel.elements.circuits.poppets import lift
 from nivel.elements.circuits.restrictions import EDGE, add_flow, restrict
 from nivel.elements.circuits.symbol import Symbol, arrow, in_bar, moved, path
 from nivel.elements.circuits.ways import directional_valve
-from nivel.elements.states import StateFact
-from nivel.kernels.record.record import NONE
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Leakage, PositiveNumber
 from nivel.machine.core.coefficient import Share as Proportion
@@ -126,8 +123,9 @@ DIRECTING = 4.0  # size of the edges behind a compensator over that of the meter
 
 def add_section(builder: SystemBuilder, component: Section) -> None:
     """A spool, its metering edges with a compensator before or behind them, and its return edges."""
-    position = _add_section_spool(builder, component)
     kind, ports, name = component.compensation, component.ports, component.name
+    position = builder.outputs.add((f"hydraulics.{name}.position", "1", f"position of {name}"))
+    add_spool(builder, component, position, -1.0)
     forward = component.conductance
     back = component.flow_B / component.pressure_drop**0.5 if component.flow_B and component.pressure_drop else forward
     p, m, c = ports["P"], f"{name}.M", f"{name}.C"
@@ -175,18 +173,6 @@ def _add_compensator(
         size = component.compensator_flow / component.pressure_drop**0.5
     numbers = [size, component.transition, component.leakage]
     add_flow(builder, component.name, "compensator_flow", ends, numbers, opening)
-
-
-def _add_section_spool(builder: SystemBuilder, component: Section) -> int:
-    name, omega = component.name, 2.0 * math.pi * (component.frequency or 0.0)
-    output = builder.outputs.add((f"hydraulics.{name}.position", "1", f"position of {name}"))
-    state, speed = NONE, NONE
-    if component.frequency is not None:
-        state = builder.own_state(StateFact(f"{name}.spool", "1", f"position of {name}", 0.0, 1.0))
-        speed = builder.own_state(StateFact(f"{name}.spool_speed", "1/s", f"speed of {name}", 0.0, omega))
-    columns = [output, state, speed, builder.function(component.command)]
-    builder.elements.add(move, columns, [-1.0, omega, component.damping_ratio, 0.0])
-    return output
 
 
 OF_SECTIONS = (move, lift, restrict)

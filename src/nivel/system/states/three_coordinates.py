@@ -56,12 +56,6 @@ def arranged(
     return system, np.concatenate(state)
 
 
-def no_rotations() -> Rotations:
-    """Those of states with Euler parameters: none."""
-    four, nine, none = np.zeros((0, 4)), np.zeros((0, 3, 3)), np.zeros(0, dtype=np.uint32)
-    return Rotations(none, four, four, nine, theta=four, G=nine, bias=np.zeros((0, 3)), regularity=np.zeros(0))
-
-
 # Rotation vectors from the orientation at the start: ψ = 0 there, so every body may turn by nearly a full turn in any direction.
 #
 # A rotation vector of the orientation itself (|ψ| ≤ π at the start) would leave as little as half a turn.

@@ -11,7 +11,7 @@ from pydantic import BeforeValidator
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.chambers import SINGLE, Actuator, chamber_node, chamber_nodes
 from nivel.elements.circuits.component import Component, Rating
-from nivel.elements.circuits.composed import add_poppet
+from nivel.elements.circuits.composed import add_check_between
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.pistons import PistonFriction, displace, guide, press
 from nivel.elements.circuits.poppets import lift
@@ -223,10 +223,9 @@ def add_cylinder(builder: SystemBuilder, component: HydraulicCylinder) -> None:
         builder.note(coupled)
         numbers = [*head, sign, end, cushion.length, 1.0, cushion.least_opening]
         add_flow(builder, component.name, f"cushion_flow_{chamber}", (inner, port), numbers, (CUSHION, position))
-        opens_at, opening_range = CHECK_OF_GAS if builder.circuit.nodes[inner].gas else CHECK
-        numbers = (opening_range, 0.0, -1.0, 0.0)
-        opening = add_poppet(builder, component.name, f"check_{chamber}", {port: 1.0, inner: -1.0}, numbers, opens_at)
-        add_flow(builder, component.name, f"check_flow_{chamber}", (port, inner), head, opening)
+        spring = CHECK_OF_GAS if builder.circuit.nodes[inner].gas else CHECK
+        quantity, position = f"check_flow_{chamber}", f"check_{chamber}"
+        add_check_between(builder, component, quantity, (port, inner), head, spring, position)
 
 
 def cylinder(data: Mapping[str, Any]) -> Symbol:

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated
-from nivel.elements.circuits.composed import OF_POPPETS, PASSES, Moved, add_poppet, sums
+from nivel.elements.circuits.composed import OF_POPPETS, PASSES, add_opened, sums
 from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.elements.circuits.kind import ComponentKind
-from nivel.elements.circuits.restrictions import add_flow, rated
 from nivel.elements.circuits.symbol import Symbol, circle, path
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Leakage, PositiveNumber
@@ -92,32 +91,24 @@ def add_check(builder: SystemBuilder, component: CheckValve) -> None:
     factors = {ports["A"]: 1.0, ports["B"]: -1.0}
     if "X" in ports:
         factors[ports["X"]] = factors.get(ports["X"], 0.0) + ratio
-    numbers = (component.opening_range, component.lag, -1.0, -ratio * ATMOSPHERE)
-    opening = add_poppet(builder, component.name, "position", factors, numbers, component.opens_at)
-    add_flow(builder, component.name, "flow", (ports["A"], ports["B"]), rated(component, component.leakage), opening)
+    ends, constant = (ports["A"], ports["B"]), -ratio * ATMOSPHERE
+    add_opened(builder, component, "flow", ends, factors, component.opens_at, constant=constant)
 
 
 def add_shuttle(builder: SystemBuilder, component: ShuttleValve) -> None:
     """Two seats: the one on the side of the higher pressure is open."""
-    name, ports, half = component.name, component.ports, 0.5 * component.opening_range
-    for side, other in (("A", "B"), ("B", "A")):
-        factors = sums((ports[side], 1.0), (ports[other], -1.0))
-        moved = Moved(factors, component.opening_range, constant=half, lag=component.lag)
-        opening = moved.added(builder, name, "position" if side == "A" else "position_B")
-        ends = (ports[side], ports["C"])
-        add_flow(builder, name, f"flow_{side}", ends, rated(component, component.leakage), opening)
+    ports, half = component.ports, 0.5 * component.opening_range
+    for side, other, position in (("A", "B", "position"), ("B", "A", "position_B")):
+        factors, ends = sums((ports[side], 1.0), (ports[other], -1.0)), (ports[side], ports["C"])
+        add_opened(builder, component, f"flow_{side}", ends, factors, constant=half, position=position)
 
 
 def add_quick_exhaust(builder: SystemBuilder, component: QuickExhaust) -> None:
     """p_P - p_A against the spring, and the other way round."""
-    ports, name, head = component.ports, component.name, rated(component, component.leakage)
-    numbers = (component.opening_range, component.lag, -1.0, 0.0)
-    opening = add_poppet(builder, name, "position", {ports["P"]: 1.0, ports["A"]: -1.0}, numbers, component.opens_at)
-    add_flow(builder, name, "flow_PA", (ports["P"], ports["A"]), head, opening)
-    opening = add_poppet(
-        builder, name, "exhaust_position", {ports["A"]: 1.0, ports["P"]: -1.0}, numbers, component.opens_at
-    )
-    add_flow(builder, name, "flow_AR", (ports["A"], ports["R"]), head, opening)
+    p, a, opens_at = component.ports["P"], component.ports["A"], component.opens_at
+    add_opened(builder, component, "flow_PA", (p, a), {p: 1.0, a: -1.0}, opens_at, position="position")
+    ends = a, component.ports["R"]
+    add_opened(builder, component, "flow_AR", ends, {a: 1.0, p: -1.0}, opens_at, position="exhaust_position")
 
 
 CHECK: Final = path("M0 16 V7 M-8 -4 L0 7 L8 -4 M0 -7 V-16") + circle(5.0, -2.0)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated, VaryingPressure, problem_of_share
-from nivel.elements.circuits.composed import INNER_VOLUME, OF_POPPETS, Moved, add_check_between, sums
+from nivel.elements.circuits.composed import INNER_VOLUME, OF_POPPETS, add_check_between, add_opened, sums
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
 from nivel.elements.circuits.restrictions import GIVEN, add_flow, rated
@@ -111,19 +111,17 @@ def add_flow_control(builder: SystemBuilder, component: FlowControl) -> None:
     """An orifice, with a compensator before it or a bypass beside it that holds the margin over it."""
     name, ports = component.name, component.ports
     p, a = ports["P"], ports["A"]
-    half, span = 0.5 * component.opening_range, component.opening_range
+    half, margin = 0.5 * component.opening_range, component.margin
     meter = (GIVEN, builder.function(component.setting))
     head = rated(component, component.leakage)
     if "T" in ports:
         add_flow(builder, name, "flow", (p, a), head, meter)
-        moved = Moved(sums((p, 1.0), (a, -1.0)), span, component.margin, -1.0, half, component.lag)
-        opening = moved.added(builder, name, "position")
-        add_flow(builder, name, "bypass_flow", (p, ports["T"]), rated(component, 0.0), opening)
+        factors, spool = sums((p, 1.0), (a, -1.0)), {"numbers": rated(component, 0.0), "position": "position"}
+        add_opened(builder, component, "bypass_flow", (p, ports["T"]), factors, margin, constant=half, **spool)
     else:
         m = f"{name}.M"
-        moved = Moved(sums((m, -1.0), (a, 1.0)), span, component.margin, 1.0, half, component.lag)
-        opening = moved.added(builder, name, "position")
-        add_flow(builder, name, "compensator_flow", (p, m), rated(component, 0.0), opening)
+        factors, spool = sums((m, -1.0), (a, 1.0)), {"numbers": rated(component, 0.0), "position": "position"}
+        add_opened(builder, component, "compensator_flow", (p, m), factors, margin, 1.0, half, **spool)
         add_flow(builder, name, "flow", (m, a), head, meter)
     if component.free_return:
         add_check_between(builder, component, "check_flow", (a, p))
@@ -138,20 +136,16 @@ def add_divider(builder: SystemBuilder, component: FlowDivider) -> None:
     for side, own, other, share in (("A", m, n, component.share), ("B", n, m, 1.0 - component.share)):
         numbers = [share * whole, corner, leak]
         add_flow(builder, name, f"orifice_flow_{side}", (ports["P"], own), numbers)
-        moved = Moved(sums((own, way), (other, -way)), component.opening_range, constant=half, lag=component.lag)
-        opening = moved.added(builder, name, f"position_{side}")
-        add_flow(builder, name, f"flow_{side}", (own, ports[side]), numbers, opening)
+        factors, ends = sums((own, way), (other, -way)), (own, ports[side])
+        add_opened(builder, component, f"flow_{side}", ends, factors, constant=half, numbers=numbers)
 
 
 def add_priority(builder: SystemBuilder, component: PriorityValve) -> None:
     """Two edges of one spool: CF closes as EF opens."""
-    name, ports, half = component.name, component.ports, 0.5 * component.opening_range
-    for side, sign in (("CF", 1.0), ("EF", -1.0)):
-        factors = sums((ports["LS"], sign), (ports["CF"], -sign))
-        moved = Moved(factors, component.opening_range, component.margin, sign, half, component.lag)
-        opening = moved.added(builder, name, "position" if side == "CF" else "position_EF")
-        ends = (ports["P"], ports[side])
-        add_flow(builder, name, f"flow_{side}", ends, rated(component, component.leakage), opening)
+    ports, half, margin = component.ports, 0.5 * component.opening_range, component.margin
+    for side, sign, position in (("CF", 1.0, "position"), ("EF", -1.0, "position_EF")):
+        factors, ends = sums((ports["LS"], sign), (ports["CF"], -sign)), (ports["P"], ports[side])
+        add_opened(builder, component, f"flow_{side}", ends, factors, margin, sign, half, position=position)
 
 
 THROTTLE: Final = "M-7 -7 Q-1 0 -7 7 M7 -7 Q1 0 7 7"

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated
-from nivel.elements.circuits.composed import OF_POPPETS, PASSES, Moved, add_check_between, add_poppet
+from nivel.elements.circuits.composed import OF_POPPETS, PASSES, add_check_between, add_opened
 from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
-from nivel.elements.circuits.restrictions import TRANSITION, add_flow, rated
+from nivel.elements.circuits.restrictions import TRANSITION, add_flow
 from nivel.elements.circuits.symbol import Symbol, arrow, check_at, in_bar, moved, path
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Leakage, PositiveNumber, Truth
@@ -135,25 +135,23 @@ def add_counterbalance(builder: SystemBuilder, component: CounterbalanceValve) -
         add_flow(builder, component.name, "pilot_flow", (ports["X"], pilot), bore(component.pilot_orifice))
         if component.drain_orifice is not None:
             add_flow(builder, component.name, "drain_flow", (pilot, ports["V"]), bore(component.drain_orifice))
-    numbers = (component.opening_range, component.lag, -1.0, constant)
-    opening = add_poppet(builder, component.name, "position", factors, numbers, component.opens_at)
-    add_flow(builder, component.name, "flow", (ports["L"], ports["V"]), rated(component, component.leakage), opening)
-    back = {ports["V"]: 1.0, ports["L"]: -1.0}
-    numbers = (component.check_opening_range, 0.0, -1.0, 0.0)
-    opening = add_poppet(builder, component.name, "check_position", back, numbers, component.check_opens_at)
-    check = [component.check_conductance, TRANSITION, 0.0]
-    add_flow(builder, component.name, "check_flow", (ports["V"], ports["L"]), check, opening)
+    ends, back = (ports["L"], ports["V"]), (ports["V"], ports["L"])
+    add_opened(builder, component, "flow", ends, factors, component.opens_at, constant=constant)
+    check, spring = (
+        [component.check_conductance, TRANSITION, 0.0],
+        (component.check_opens_at, component.check_opening_range),
+    )
+    add_check_between(builder, component, "check_flow", back, check, spring)
 
 
 def add_brake(builder: SystemBuilder, component: BrakeValve) -> None:
     """For each side a check valve in, and an edge back that the other side opens."""
-    name, ports = component.name, component.ports
+    ports = component.ports
     for side, other in (("A", "B"), ("B", "A")):
         valve, line = ports[f"V{side}"], ports[side]
         pilot = {ports[f"V{other}"]: 1.0}
-        moved = Moved(pilot, component.opening_range, component.opens_at, -1.0, -ATMOSPHERE, component.lag)
-        opening = moved.added(builder, name, f"position_{side}")
-        add_flow(builder, name, f"flow_{side}", (line, valve), rated(component, component.leakage), opening)
+        ends, setting = (line, valve), component.opens_at
+        add_opened(builder, component, f"flow_{side}", ends, pilot, setting, constant=-ATMOSPHERE)
         add_check_between(builder, component, f"check_flow_{side}", (valve, line))
 
 

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated
-from nivel.elements.circuits.composed import INNER_VOLUME, OF_POPPETS, Moved, add_single, sums
+from nivel.elements.circuits.composed import INNER_VOLUME, OF_POPPETS, add_opened, sums
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
-from nivel.elements.circuits.restrictions import add_flow, rated
+from nivel.elements.circuits.restrictions import add_flow
 from nivel.elements.circuits.symbol import BAR, Symbol, path, square
 from nivel.machine.core.coefficient import Leakage, Pressure, Share, VolumeFlow
 from nivel.machine.given import Field
@@ -88,8 +88,8 @@ class CartridgeValve(Rated):
 def add_pilot_relief(builder: SystemBuilder, component: PilotReliefValve) -> None:
     """An orifice from P to X, a pilot from X to T, and the main poppet that p_P - p_X lifts."""
     p, t, x = component.ports["P"], component.ports["T"], f"{component.name}.X"
-    main = Moved(sums((p, 1.0), (x, -1.0)), component.opening_range, component.spring, lag=component.lag)
-    _add_piloted(builder, component, (p, t), (p, x, t), main, component.opens_at)
+    add_opened(builder, component, "flow", (p, t), sums((p, 1.0), (x, -1.0)), component.spring)
+    _add_pilot(builder, component, (p, x, t), component.opens_at)
 
 
 def add_pilot_reducing(builder: SystemBuilder, component: PilotReducingValve) -> None:
@@ -97,35 +97,24 @@ def add_pilot_reducing(builder: SystemBuilder, component: PilotReducingValve) ->
     p, a, t = (component.ports[port] for port in "PAT")
     x = f"{component.name}.X"
     spring = component.spring + component.opening_range
-    main = Moved(sums((a, -1.0), (x, 1.0)), component.opening_range, spring, 1.0, lag=component.lag)
-    _add_piloted(builder, component, (p, a), (a, x, t), main, component.pressure)
+    add_opened(builder, component, "flow", (p, a), sums((a, -1.0), (x, 1.0)), spring, 1.0)
+    _add_pilot(builder, component, (a, x, t), component.pressure)
 
 
-def _add_piloted(
-    builder: SystemBuilder,
-    component: PilotReliefValve | PilotReducingValve,
-    ends: tuple[str, str],
-    pilot: tuple[str, str, str],
-    main: Moved,
-    setting: TimeFunction,
-) -> None:
+def _add_pilot(builder: SystemBuilder, component: _Piloted, pilot: tuple[str, str, str], setting: TimeFunction) -> None:
     """pilot : the nodes before its orifice, between orifice and seat, and behind the seat."""
-    name = component.name
     before, x, drain = pilot
-    corner = component.transition
-    opening = main.added(builder, name, "position")
-    add_flow(builder, name, "flow", ends, rated(component, component.leakage), opening)
-    orifice = [component.pilot_conductance, corner, 0.0]
-    add_flow(builder, name, "orifice_flow", (before, x), orifice)
-    seat = Moved(sums((x, 1.0), (drain, -1.0)), component.pilot_range, setting).added(builder, name, "pilot_position")
-    add_flow(builder, name, "pilot_flow", (x, drain), [2.0 * component.pilot_conductance, corner, 0.0], seat)
+    size, corner = component.pilot_conductance, component.transition
+    add_flow(builder, component.name, "orifice_flow", (before, x), [size, corner, 0.0])
+    factors, seat = sums((x, 1.0), (drain, -1.0)), {"numbers": [2.0 * size, corner, 0.0], "span": component.pilot_range}
+    add_opened(builder, component, "pilot_flow", (x, drain), factors, setting, lag=0.0, **seat)
 
 
 def add_cartridge(builder: SystemBuilder, component: CartridgeValve) -> None:
     """p_A and p_B on their shares of the area of X against p_X and the spring."""
     ports, share = component.ports, component.area_share
     factors = sums((ports["A"], share), (ports["B"], 1.0 - share), (ports["X"], -1.0))
-    add_single(builder, component, ("A", "B"), factors, 0.0)
+    add_opened(builder, component, "flow", (ports["A"], ports["B"]), factors, component.opens_at)
 
 
 PILOT = path("M16 -9 l9 4 l-9 4 z", "full") + path("M0 -17 H-18 V0 H-12 M26 0 H34 V-20", "dashed")

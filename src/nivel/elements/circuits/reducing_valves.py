@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated, VaryingPressure
-from nivel.elements.circuits.composed import OF_POPPETS, add_check_between, add_poppet, add_single, sums
+from nivel.elements.circuits.composed import OF_POPPETS, add_check_between, add_opened, sums
 from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.restrictions import add_flow, rated
@@ -104,22 +104,17 @@ class SoftStart(Rated):
 def add_reducing(builder: SystemBuilder, component: ReducingValve) -> None:
     """The setting against p_A; the other way round for what relieves A."""
     ports = component.ports
-    numbers = (component.opening_range, component.lag, 1.0, 0.0)
-    opening = add_poppet(builder, component.name, "position", {ports["A"]: -1.0}, numbers, component.pressure)
-    add_flow(builder, component.name, "flow", (ports["P"], ports["A"]), rated(component, component.leakage), opening)
+    add_opened(builder, component, "flow", (ports["P"], ports["A"]), {ports["A"]: -1.0}, component.pressure, 1.0)
     if "T" in ports:
-        numbers = (component.opening_range, component.lag, -1.0, 0.0)
-        opening = add_poppet(builder, component.name, "relief_position", {ports["A"]: 1.0}, numbers, component.pressure)
-        add_flow(builder, component.name, "relief_flow", (ports["A"], ports["T"]), rated(component, 0.0), opening)
+        ends, numbers = (ports["A"], ports["T"]), rated(component, 0.0)
+        add_opened(builder, component, "relief_flow", ends, {ports["A"]: 1.0}, component.pressure, numbers=numbers)
 
 
 def add_compensator(builder: SystemBuilder, component: Compensator) -> None:
     """The margin and half the range against p_A - p_LS."""
     ports = component.ports
-    factors = {ports["A"]: -1.0, ports["LS"]: 1.0}
-    numbers = (component.opening_range, component.lag, 1.0, 0.5 * component.opening_range)
-    opening = add_poppet(builder, component.name, "position", factors, numbers, component.margin)
-    add_flow(builder, component.name, "flow", (ports["P"], ports["A"]), rated(component, component.leakage), opening)
+    factors, half = {ports["A"]: -1.0, ports["LS"]: 1.0}, 0.5 * component.opening_range
+    add_opened(builder, component, "flow", (ports["P"], ports["A"]), factors, component.margin, 1.0, half)
 
 
 def add_sequence(builder: SystemBuilder, component: SequenceValve) -> None:
@@ -128,7 +123,8 @@ def add_sequence(builder: SystemBuilder, component: SequenceValve) -> None:
     factors, constant = {ports["P"]: 1.0}, -ATMOSPHERE
     if "T" in ports:
         factors, constant = sums((ports["P"], 1.0), (ports["T"], -1.0)), 0.0
-    add_single(builder, component, ("P", "A"), factors, constant)
+    ends = ports["P"], ports["A"]
+    add_opened(builder, component, "flow", ends, factors, component.opens_at, constant=constant)
     if component.free_return:
         add_check_between(builder, component, "check_flow", (ports["A"], ports["P"]))
 
@@ -137,11 +133,8 @@ def add_soft_start(builder: SystemBuilder, component: SoftStart) -> None:
     """p_A - share p_P opens what lies beside a throttle."""
     ports, name = component.ports, component.name
     ends, head = (ports["P"], ports["A"]), rated(component, 0.0)
-    factors = {ports["A"]: 1.0, ports["P"]: -component.switches_at}
-    numbers = (component.opening_range, component.lag, 1.0, 0.0)
-    opening = add_poppet(builder, name, "position", factors, numbers, 0.0)
-    share = component.throttle
-    add_flow(builder, name, "flow", ends, [(1.0 - share) * head[0], *head[1:]], opening)
+    factors, share = {ports["A"]: 1.0, ports["P"]: -component.switches_at}, component.throttle
+    add_opened(builder, component, "flow", ends, factors, 0.0, 1.0, numbers=[(1.0 - share) * head[0], *head[1:]])
     add_flow(builder, name, "throttled_flow", ends, [share * head[0], *head[1:]])
 
 

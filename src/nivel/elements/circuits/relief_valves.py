@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated
-from nivel.elements.circuits.composed import OF_POPPETS, PASSES, Moved, add_check_between, add_poppet, add_single, sums
+from nivel.elements.circuits.composed import OF_POPPETS, PASSES, add_check_between, add_opened, sums
 from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.elements.circuits.kind import ComponentKind
-from nivel.elements.circuits.restrictions import add_flow, rated
 from nivel.elements.circuits.symbol import BAR, Symbol, check_at, in_bar, path, square
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Leakage
@@ -107,9 +106,7 @@ def add_relief(builder: SystemBuilder, component: ReliefValve) -> None:
     """p_P - p_T against the spring."""
     ports = component.ports
     factors = {ports["P"]: 1.0, ports["T"]: -1.0}
-    numbers = (component.opening_range, component.lag, -1.0, 0.0)
-    opening = add_poppet(builder, component.name, "position", factors, numbers, component.opens_at)
-    add_flow(builder, component.name, "flow", (ports["P"], ports["T"]), rated(component, component.leakage), opening)
+    add_opened(builder, component, "flow", (ports["P"], ports["T"]), factors, component.opens_at)
 
 
 def add_unloading(builder: SystemBuilder, component: UnloadingValve) -> None:
@@ -118,18 +115,16 @@ def add_unloading(builder: SystemBuilder, component: UnloadingValve) -> None:
     factors, constant = sums((ports["P"], 1.0), (ports.get("LS", ""), -1.0)), 0.0
     if "X" in ports:
         factors, constant = {ports["X"]: 1.0}, -ATMOSPHERE
-    add_single(builder, component, ("P", "T"), factors, constant)
+    ends = ports["P"], ports["T"]
+    add_opened(builder, component, "flow", ends, factors, component.opens_at, constant=constant)
 
 
 def add_cross_port(builder: SystemBuilder, component: CrossPortRelief) -> None:
     """A relief valve each way, and check valves from the tank line."""
-    name, ports = component.name, component.ports
+    ports = component.ports
     for a, b in (("A", "B"), ("B", "A")):
         factors = sums((ports[a], 1.0), (ports[b], -1.0))
-        moved = Moved(factors, component.opening_range, component.opens_at, lag=component.lag)
-        opening = moved.added(builder, name, f"position_{a}{b}")
-        ends = (ports[a], ports[b])
-        add_flow(builder, name, f"flow_{a}{b}", ends, rated(component, component.leakage), opening)
+        add_opened(builder, component, f"flow_{a}{b}", (ports[a], ports[b]), factors, component.opens_at)
     if "T" in ports:
         numbers = [component.check_conductance, component.transition, 0.0]
         spring = (component.check_opens_at, component.check_opening_range)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated, VaryingPressure, problem_of_share
-from nivel.elements.circuits.composed import INNER_VOLUME, Moved, sums
+from nivel.elements.circuits.composed import INNER_VOLUME, add_opened, sums
 from nivel.elements.circuits.directional_valves import add_spool, move
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
@@ -160,19 +160,15 @@ def _add_compensator(
     """pre: margin, or its share of p_P - p_LS, against p_M - p_LS. post: p_M against p_LS and the margin."""
     ls, p, half = component.ports["LS"], component.ports["P"], 0.5 * component.opening_range
     m, rest = felt
-    if component.compensation == "post":
-        moved = Moved(sums((m, 1.0), (ls, -1.0)), component.opening_range, component.margin, -1.0, half, component.lag)
-    elif component.saturation_share is not None:
-        factors = sums((m, -1.0), (ls, rest), (p, component.saturation_share))
-        moved = Moved(factors, component.opening_range, 0.0, 1.0, half, component.lag)
-    else:
-        moved = Moved(sums((m, -1.0), (ls, 1.0)), component.opening_range, component.margin, 1.0, half, component.lag)
-    opening = moved.added(builder, component.name, "compensator_position")
+    sign, setting = (-1.0 if component.compensation == "post" else 1.0), component.margin
+    factors = sums((m, -sign), (ls, sign))
+    if component.compensation != "post" and component.saturation_share is not None:
+        factors, setting = sums((m, -1.0), (ls, rest), (p, component.saturation_share)), 0.0
     size = 2.0 * component.conductance
     if component.compensator_flow and component.pressure_drop:
         size = component.compensator_flow / component.pressure_drop**0.5
     numbers = [size, component.transition, component.leakage]
-    add_flow(builder, component.name, "compensator_flow", ends, numbers, opening)
+    add_opened(builder, component, "compensator_flow", ends, factors, setting, sign, half, numbers=numbers)
 
 
 OF_SECTIONS = (move, lift, restrict)

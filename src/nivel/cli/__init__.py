@@ -5,6 +5,8 @@ from __future__ import annotations
 import gc
 import os
 import re
+import sys
+import warnings
 from difflib import get_close_matches
 from importlib import import_module
 from typing import Final, NamedTuple
@@ -94,7 +96,10 @@ class LazyGroup(click.Group):
         with told():
             _asked_level()
             try:
-                return super().invoke(ctx)
+                with warnings.catch_warnings():
+                    if not sys.warnoptions:  # reports say what is no number, and where
+                        warnings.simplefilter("ignore", RuntimeWarning)
+                    return super().invoke(ctx)
             except click.NoSuchOption as problem:
                 raise _with_our_word(problem) from None
 

@@ -25,6 +25,7 @@ from nivel.elements.forces import Force
 from nivel.elements.joints.couplings import Coupling
 from nivel.elements.joints.drivers import Driver
 from nivel.elements.joints.joint import Joint
+from nivel.lazy import nivel
 from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
@@ -165,6 +166,8 @@ class MachineRecord(Checked):
     def _in_plain_words(cls, data: Any, handler: ModelWrapValidatorHandler[Self], info: ValidationInfo) -> Self:
         """Faults of all parts, and names that lead nowhere, in one error."""
         data = with_whole_coordinates(data)
+        if not _has_none(data, "hydraulics"):
+            data = nivel.machine.uses.hydraulic_uses.with_named_nodes(data)
         faults = reference_faults(data, parameters_of(info))
         lines = [InitErrorDetails(type=fault(text), loc=place, input=None) for place, text in faults]
         if all(_has_none(data, section) for section in MOVING):

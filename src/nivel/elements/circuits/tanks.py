@@ -51,7 +51,7 @@ class Volume(Component):
     gases: ClassVar[bool] = True
 
     type: Literal["volume"] = "volume"
-    volume: ranges.Size = Field()
+    volume: ranges.Size = Field(default=2e-4)
     wall_modulus: Maybe[ranges.WallModulus] = Field(
         default=None, description="pressure over the relative growth of the volume; default: rigid walls"
     )

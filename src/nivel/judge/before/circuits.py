@@ -5,9 +5,12 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import Final
+from itertools import product
+from typing import Any, Final
+
+import numpy as np
 
 from nivel.elements.circuits.accumulators import Accumulator
 from nivel.elements.circuits.chambers import Actuator
@@ -27,13 +30,19 @@ from nivel.elements.circuits.spool_valves import SpoolValve
 from nivel.elements.circuits.tanks import Reservoir, Tank, Volume
 from nivel.judge.finding import Finding
 from nivel.lazy import dataclass
+from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.units.bounds import values_of
+from nivel.machine.units.expression import Expression
 from nivel.machine.units.quantity import PlainVolume
+from nivel.machine.units.tree import TIME
 from nivel.machine.uses.hydraulic_uses import makers, ports_of
 
 Said = Iterator[Finding]
 LOW: Final = 6e5  # Pa; a tank of a constant pressure up to this one takes what returns
 BAR, LITRE_PER_MINUTE = 1e5, 1e-3 / 60.0
+FAR_BEYOND: Final = 3.0  # of a full command; less may be a gain that saturates
+MOST_SIGNALS: Final = 4  # at the ends of whose ranges a command is tried
 LARGEST: Final = PUMP_DISPLACEMENT.most * 1e-6 / (2.0 * math.pi)  # [m³/rad] of pumps that are built
 
 
@@ -257,9 +266,41 @@ def _of_load_sensing(circuit: Circuit, each: Component) -> Said:
 
 
 def volume_remarks(machine: MachineRecord) -> Said:
-    """Displacements per angle, and volumes that nothing fills."""
+    """Displacements per angle, volumes that nothing fills, and commands far beyond the full one."""
     yield from _of_volumes(machine)
     yield from _unfillable(machine)
+    yield from _of_commands(machine)
+
+
+def _of_commands(machine: MachineRecord) -> Said:
+    """Commands of valves that are of the size of percents."""
+    ranges = {f"{each.name}.value": each.range for each in machine.inputs}
+    ranges |= {f"{each.name}.value": each.limits for each in machine.control if getattr(each, "limits", None)}
+    for component in machine.hydraulics:
+        command = getattr(component, "command", None)
+        largest = _largest_of(command, ranges, machine.simulation.duration or 1.0)
+        if FAR_BEYOND < largest < math.inf:
+            text = command.text if isinstance(command, Expression) else "…"
+            message = f"a command of 1 is the full one, and this reaches {largest:.4g}: percent? Write `command: ({text})/100`"
+            yield Finding(f"hydraulics.{component.name}.command", message)
+
+
+def _largest_of(command: Any, ranges: Mapping[str, tuple[float, float]], duration: float) -> float:
+    """The largest magnitude that a function reaches over a run at the ends of these ranges; 0 where it depends on other signals."""
+    if isinstance(command, Table):
+        return max(map(abs, command.values))
+    if (
+        not isinstance(command, Expression)
+        or len(command.signals) > MOST_SIGNALS
+        or not ranges.keys() >= {*command.signals}
+    ):
+        return 0.0
+    time = np.linspace(0.0, duration, 201)
+    largest = 0.0
+    for ends in product(*(ranges[path] for path in command.signals)):
+        known = {path: np.full(len(time), end) for path, end in zip(command.signals, ends, strict=True)}
+        largest = max(largest, float(np.nanmax(np.abs(values_of(command.tree, {TIME: time, **known})), initial=0.0)))
+    return largest
 
 
 def _of_volumes(machine: MachineRecord) -> Said:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from nivel.elements.circuits.component import Component
+from nivel.elements.circuits.tanks import Volume
 from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.elements.contacts.heap import spheres_between
 from nivel.elements.forces.loads import PointForce
@@ -166,7 +167,9 @@ def component_in_words(component: Component) -> str:
         if isinstance(component, Ends)
         else ""
     )
-    return f"{component.name}: {component.type}{on}{f', {ports}' if ports else ''}"
+    usual = isinstance(component, Volume) and "volume" not in component.model_fields_set
+    size = f" of {1e3 * component.volume:g} L, as none is given" if usual else ""
+    return f"{component.name}: {component.type}{size}{on}{f', {ports}' if ports else ''}"
 
 
 def event_in_words(event: Event) -> str:

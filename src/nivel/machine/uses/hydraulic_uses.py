@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
@@ -41,6 +42,23 @@ def hydraulic_faults(machine: Any, index: Index, parameters: Parameters) -> Faul
         yield from _unconnected(component, used, ("hydraulics", at))
     yield from _unrelieved(components, nodes)
     yield from fluid_faults(machine, makers(components))
+
+
+def with_named_nodes(data: Any) -> Any:
+    """`data` of a machine in which a node that two components name, and that none of them makes, is a volume of the usual size.
+
+    One name alone may be a slip, and of several fluids none is known: these stay faults.
+    """
+    components = elements(data, "hydraulics") if isinstance(data, Mapping) else []
+    if not isinstance(entry(data, "hydraulics"), list | tuple) or len(elements(data, "fluids")) > 1:
+        return data
+    known = {*node_types(components), *(entry(each, "name") for each in components)}
+    named: Counter[str] = Counter()
+    for component in components:
+        sensing = (record_of(str(entry(component, "type"))) or Component).sensing
+        named.update({node for port, node in ports_of(component).items() if port not in sensing})
+    met = [node for node, count in named.items() if count > 1 and node not in known and node.isidentifier()]
+    return {**data, "hydraulics": [*components, *({"name": node, "type": "volume"} for node in met)]} if met else data
 
 
 def node_types(components: Any) -> dict[str, str]:
@@ -202,7 +220,8 @@ def _unrelieved(components: Any, nodes: Mapping[str, str]) -> Faults:
         for a, b in kind.passes:
             if a in ports and b in ports:
                 joined.setdefault(ports[a], set()).add(ports[b])
-    tanks = {name for name, type_ in nodes.items() if type_ in ("tank", "reservoir")}
+    tanks = [name for name, type_ in nodes.items() if type_ in ("tank", "reservoir")]
+    tank = next(iter(tanks), "tank")
     for at, component in enumerate(components):
         kind, ports = (record_of(entry(component, "type")) or Component), ports_of(component)
         if kind.delivers not in ports or any(entry(component, key) is not None for key in BOUNDING):
@@ -212,6 +231,14 @@ def _unrelieved(components: Any, nodes: Mapping[str, str]) -> Faults:
         while front:
             front = [node for each in front for node in joined.get(each, ()) if node not in reached]
             reached.update(front)
-        if node in nodes and not reached & (safe | tanks):
-            line = f"{{type: relief-valve, ports: {{P: {node}, T: …}}, opens_at: 250 bar, opening_range: 25 bar, …}}"
-            yield ("hydraulics", at), f"no relief valve bounds the pressure at `{node}`; add one such as `{line}`"
+        if node in nodes and not reached & safe.union(tanks):
+            rating = "opens_at: 250 bar, opening_range: 25 bar, flow: 120 L/min, pressure_drop: 250 bar"
+            line = f"safety: {{type: relief-valve, ports: {{P: {node}, T: {tank}}}, {rating}}}"
+            behind = next((each for each in components if ports_of(each).get("A") == node and _delivers(each)), None)
+            row = f", from which `{entry(behind, 'name')}` takes: of two pumps in a row the first may deliver more than the second"
+            what = f"no relief valve bounds the pressure at `{node}`{row if behind is not None else ''}"
+            yield ("hydraulics", at), f"{what}; add one such as `{line}`"
+
+
+def _delivers(component: Any) -> bool:
+    return bool((record_of(str(entry(component, "type"))) or Component).delivers)

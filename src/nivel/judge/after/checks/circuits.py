@@ -134,8 +134,9 @@ def say_mass(found: FluidMass) -> Item:
 def look_for_cavitation(run: Motion) -> list[Cavitation]:
     """Pressures of liquids that fall too low."""
     out, result = [], run.result
+    signals = {f"{START}{each['name']}.pressure" for each in _components(result) if each["type"] == "load-sensing"}
     for name in result.variables:
-        if not name.startswith(START) or not name.rpartition(".")[2].startswith("pressure"):
+        if name in signals or not name.startswith(START) or not name.rpartition(".")[2].startswith("pressure"):
             continue
         if name.replace(".pressure", ".temperature") in result.variables:
             continue  # gas may be thin

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import re
 from importlib import import_module
 from pathlib import Path
 from typing import Any, Final
@@ -18,6 +20,26 @@ HEAD: Final = """# Written by `python packaging/write_settings.py` from the reco
 # fmt: off
 # ruff: noqa
 # pyright: reportOptionalMemberAccess=false
+"""
+# packages besides nivel that are imported late, with their modules
+LATE: Final = """PIL.Image distributed gymnasium.vector imageio_ffmpeg matplotlib matplotlib.figure matplotlib.pyplot
+meshio numpy pint pyarrow rich.box rich.console rich.live rich.progress rich.table rich.text scipy
+scipy.integrate scipy.interpolate scipy.io scipy.linalg scipy.optimize scipy.signal scipy.sparse
+scipy.sparse.csgraph scipy.sparse.linalg scipy.spatial scipy.spatial.transform scipy.stats skfem
+skfem.helpers skfem.io.meshio skfem.models.elasticity skfem.models.poisson websockets.asyncio.server
+websockets.exceptions websockets.sync.client xarray"""
+OF_LAZY: Final = """from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields, is_dataclass, replace
+from typing import Any, Final
+
+PLACES: Final[dict[str, str]]
+
+class Late:
+    def __init__(self, name: str) -> None: ...
+    def __getattr__(self, name: str) -> Any: ...
+
+def provide(places: Mapping[str, str]) -> None: ...
+def provided(subject: str) -> Any: ...
 """
 
 
@@ -51,9 +73,46 @@ def stub_of_package() -> str:
     return "\n".join((HEAD, *lines, "", "__version__: str", f"__all__ = {nivel.__all__!r}", ""))
 
 
+def late_modules() -> set[str]:
+    """Modules of nivel whose names are written in full in files that take `nivel` from `nivel.lazy`."""
+    package = Path(str(nivel.__file__)).parent
+    texts = {path: path.read_text(encoding="utf-8") for path in package.rglob("*.py")}
+    places = {
+        ".".join(path.relative_to(package.parent).with_suffix("").parts).removesuffix(".__init__") for path in texts
+    }
+    found = set()
+    for text in texts.values():
+        if not re.search(r"^from nivel\.lazy import .*\bnivel\b", text, re.MULTILINE):
+            continue
+        for node in ast.walk(ast.parse(text)):
+            name = ast.unparse(node) if isinstance(node, ast.Attribute) else ""
+            found |= {name} & places if re.fullmatch(r"nivel(\.\w+)+", name) else set()
+    return found | {"nivel"}
+
+
+def stub_of_lazy() -> str:
+    """The text of `nivel/lazy.pyi`: packages and modules that are imported late, as they are."""
+    modules = sorted({*LATE.split(), *late_modules()})
+    public = {
+        "PLACES",
+        "Late",
+        "provide",
+        "provided",
+        "asdict",
+        "dataclass",
+        "field",
+        "fields",
+        "is_dataclass",
+        "replace",
+    }
+    names = sorted(public | {module.partition(".")[0] for module in modules})
+    return "\n".join((HEAD + OF_LAZY, *(f"import {module}" for module in modules), "", f"__all__ = {names!r}", ""))
+
+
 def write_stubs() -> None:
     """Write the stubs of the package and of all rooms."""
     Path(str(nivel.__file__)).with_suffix(".pyi").write_text(stub_of_package(), encoding="utf-8")
+    (Path(str(nivel.__file__)).parent / "lazy.pyi").write_text(stub_of_lazy(), encoding="utf-8")
     (Path(str(import_module("nivel.elements.joints").__file__)).with_suffix(".pyi")).write_text(
         stub_of_joints(), encoding="utf-8"
     )

@@ -11,7 +11,7 @@ from nivel.machine.machine_record import MachineRecord
 
 ROOT = Path(__file__).parents[2]
 sys.path.append(str(ROOT / "packaging"))
-from record_stubs import ROOMS, records_of, stub, stub_of_joints, stub_of_package  # noqa: E402
+from record_stubs import ROOMS, records_of, stub, stub_of_joints, stub_of_lazy, stub_of_package  # noqa: E402
 
 SECTIONS = set(MachineRecord.model_fields) - {"name"}
 ROOM_OF = {"forces": nivel.forces, "hydraulics": nivel.hydraulics, "fluids": nivel.hydraulics, "control": nivel.control}
@@ -49,6 +49,11 @@ def test_type_checkers_know_every_name_of_the_package():
     written = Path(str(nivel.__file__)).with_suffix(".pyi").read_text(encoding="utf-8")
     assert written == stub_of_package(), "python packaging/write_settings.py"
     assert all(hasattr(nivel, name) for name in nivel.__all__)
+
+
+def test_type_checkers_know_what_is_imported_late():
+    written = (Path(str(nivel.__file__)).parent / "lazy.pyi").read_text(encoding="utf-8")
+    assert written == stub_of_lazy(), "python packaging/write_settings.py"
 
 
 def test_type_checkers_know_the_types_of_joints():

@@ -16,8 +16,11 @@ from nivel.cli.options import (
     force_option,
     json_option,
     no_report_option,
+    out_option,
     override_option,
     quiet_option,
+    resume_option,
+    set_option,
     setting_options,
 )
 from nivel.cli.progress import progress_listener
@@ -27,6 +30,7 @@ from nivel.lazy import dataclass, nivel
 if TYPE_CHECKING:
     from nivel.analysis.progress.log import Listener
     from nivel.api import Machine
+    from nivel.studies import Study
 
 
 @dataclass(frozen=True)
@@ -136,6 +140,56 @@ def analysis_command(keys: Any, name: str, short_help: str) -> Callable[[Callabl
         command.__click_params__ += getattr(function, "__click_params__", [])  # type: ignore[attr-defined]
         command.__doc__ = function.__doc__
         return click.command(short_help=short_help)(file_argument("machine")(setting_options(keys)(command)))
+
+    return made
+
+
+@dataclass(frozen=True)
+class StudyOrder:
+    """What a command of a study was asked for. count : of processes or threads; None: one for each processor."""
+
+    study: str
+    overrides: dict[str, str]
+    allow_code: bool
+    out: Path | None
+    count: int | None
+    resume: bool
+    force: bool
+    no_report: bool
+    quiet: bool
+    as_json: bool
+
+    def targets(self, study: Study) -> tuple[Path, Path | None]:
+        """Data file and report. Raises ModelError where both are one."""
+        target = self.out or Path(f"{study.file.record.name}.nc")
+        page = None if self.no_report else beside(target)
+        if page == target:
+            raise ModelError(f"{target}: the report would be written over the data file; use a name ending in .nc")
+        return target, page
+
+
+def study_command(
+    short_help: str, count: str, meaning: str, *own: Any
+) -> Callable[[Callable[..., None]], click.Command]:
+    """A command of a `StudyOrder`. count : its option for the number of processes or threads. own : more options."""
+
+    def made(function: Callable[..., None]) -> click.Command:
+        def command(**given: Any) -> None:
+            given["count"] = given.pop(count.removeprefix("--"))
+            asked = {name: given.pop(name) for name in StudyOrder.__dataclass_fields__}
+            function(StudyOrder(**asked), **given)
+
+        number = click.option(count, type=click.IntRange(1), metavar="NUMBER", help=meaning)
+        files = (
+            set_option("study", "samples=256", " or verify=true"),
+            allow_code_option,
+            out_option("Data file", "NAME.nc"),
+        )
+        shared = (resume_option, force_option, no_report_option, quiet_option, json_option)
+        for option in reversed((file_argument("study"), *files, number, *own, *shared)):
+            option(command)
+        command.__doc__ = function.__doc__
+        return click.command(short_help=short_help)(command)
 
     return made
 

@@ -16,10 +16,12 @@ from nivel.cli.options import (
     no_report_option,
     override_option,
     quiet_option,
+    report_option,
+    resume_option,
     setting_options,
 )
 from nivel.cli.progress import progress_listener
-from nivel.cli.sweep import is_complete, resume_option, say_how_to_go_on
+from nivel.cli.sweep import is_complete, say_how_to_go_on
 from nivel.errors import Fault, ModelError
 from nivel.lazy import nivel, rich
 from nivel.settings import CompareSettingsDict
@@ -52,11 +54,7 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
     type=click.Path(dir_okay=False, path_type=Path),
     help="Table, .csv or .json. May be repeated; default: NAME-compare.csv and .json in the working directory.",
 )
-@click.option(
-    "--report",
-    type=click.Path(dir_okay=False, path_type=Path),
-    help="HTML page; default: the name of the table with .html.",
-)
+@report_option("table")
 @no_report_option
 @resume_option
 @force_option

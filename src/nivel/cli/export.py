@@ -3,26 +3,31 @@ as a C library, as an FMU, or as a web page in which it lives."""
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from nivel.cli.options import file_argument, force_option, override_option
 from nivel.lazy import nivel
 
+if TYPE_CHECKING:
+    from nivel.api import Machine
+
 BESIDE = "\0"  # stands for `--csv` or `--fmu` without a file
+# ends of the names of files that are not the word of their option
+SUFFIXES = {"mdf": ".mf4", "gltf": ".glb", "page": ".html", "mjcf": ".xml"}
+
+
+def file_option(name: str, text: str) -> Any:
+    """An option with the name of a file, or without it."""
+    return click.option(f"--{name}", name, is_flag=False, flag_value=BESIDE, metavar="[FILE]", help=f"Write {text}")
 
 
 @click.command(short_help="Write a result as a table, or a machine as a C library or FMU.")
 @file_argument("source")
-@click.option(
-    "--csv",
-    "target",
-    is_flag=False,
-    flag_value=BESIDE,
-    metavar="[FILE]",
-    help="Write a table, one row per frame; default: NAME.csv in the working directory. '-' is standard output.",
-)
+@file_option("csv", "a table, one row per frame; default: NAME.csv in the working directory. '-' is standard output.")
 @click.option(
     "--select",
     multiple=True,
@@ -32,21 +37,10 @@ BESIDE = "\0"  # stands for `--csv` or `--fmu` without a file
 )
 @force_option
 @click.option("--c", "folder", metavar="FOLDER", help="Write a C library of the machine SOURCE into a new folder.")
-@click.option(
-    "--fmu",
-    "unit",
-    is_flag=False,
-    flag_value=BESIDE,
-    metavar="[FILE]",
-    help="Write an FMU of the machine SOURCE for co-simulation; default: NAME.fmu in the working directory.",
-)
-@click.option(
-    "--page",
+@file_option("fmu", "an FMU of the machine SOURCE for co-simulation; default: NAME.fmu in the working directory.")
+@file_option(
     "page",
-    is_flag=False,
-    flag_value=BESIDE,
-    metavar="[FILE]",
-    help="Write a web page in which the machine SOURCE lives, to be operated without Python or a server; default: NAME.html in the working "
+    "a web page in which the machine SOURCE lives, to be operated without Python or a server; default: NAME.html in the working "
     "directory.",
 )
 @click.option("--fmi", type=click.Choice(["3", "2"]), help="Version of FMI; default 3.")
@@ -64,82 +58,26 @@ BESIDE = "\0"  # stands for `--csv` or `--fmu` without a file
     type=click.Choice(["x86_64-linux", "x86_64-windows", "aarch64-linux"]),
     help="What the FMU or C library is for; default: this system. For FMUs it may be repeated.",
 )
-@click.option(
-    "--mjcf",
-    "mjcf",
-    is_flag=False,
-    flag_value=BESIDE,
-    metavar="[FILE]",
-    help="Write the rigid part of the machine SOURCE for MuJoCo; default: NAME.xml in the working directory.",
+@file_option("mjcf", "the rigid part of the machine SOURCE for MuJoCo; default: NAME.xml in the working directory.")
+@file_option(
+    "urdf", "the tree of rigid bodies of the machine SOURCE as a URDF; default: NAME.urdf in the working directory."
 )
-@click.option(
-    "--urdf",
-    "urdf",
-    is_flag=False,
-    flag_value=BESIDE,
-    metavar="[FILE]",
-    help="Write the tree of rigid bodies of the machine SOURCE as a URDF; default: NAME.urdf in the working directory.",
-)
-@click.option(
-    "--gltf",
-    "film",
-    is_flag=False,
-    flag_value=BESIDE,
-    metavar="[FILE]",
-    help="Write the motion of a result as an animated glTF file; default: NAME.glb in the working directory.",
-)
-@click.option(
-    "--mat",
-    "mat",
-    is_flag=False,
-    flag_value=BESIDE,
-    metavar="[FILE]",
-    help="Write a table for MATLAB; default: NAME.mat.",
-)
-@click.option(
-    "--parquet",
-    "parquet",
-    is_flag=False,
-    flag_value=BESIDE,
-    metavar="[FILE]",
-    help="Write a Parquet table with units; default: NAME.parquet in the working directory.",
-)
-@click.option(
-    "--mdf",
-    "mdf",
-    is_flag=False,
-    flag_value=BESIDE,
-    metavar="[FILE]",
-    help="Write an MDF4 file with units; default: NAME.mf4 in the working directory.",
-)
-@click.option(
-    "--mcap",
-    "mcap",
-    is_flag=False,
-    flag_value=BESIDE,
-    metavar="[FILE]",
-    help="Write an MCAP file, a message for each frame; default: NAME.mcap in the working directory.",
-)
+@file_option("gltf", "the motion of a result as an animated glTF file; default: NAME.glb in the working directory.")
+@file_option("mat", "a table for MATLAB; default: NAME.mat.")
+@file_option("parquet", "a Parquet table with units; default: NAME.parquet in the working directory.")
+@file_option("mdf", "an MDF4 file with units; default: NAME.mf4 in the working directory.")
+@file_option("mcap", "an MCAP file, a message for each frame; default: NAME.mcap in the working directory.")
 @override_option
 def command(
     source: str,
-    target: str | None,
     select: tuple[str, ...],
     force: bool,
     folder: str | None,
-    unit: str | None,
-    page: str | None,
     fmi: str | None,
     parameters: tuple[str, ...],
     platforms: tuple[str, ...],
-    mjcf: str | None,
-    urdf: str | None,
-    film: str | None,
-    mat: str | None,
-    parquet: str | None,
-    mdf: str | None,
-    mcap: str | None,
     overrides: dict[str, str],
+    **files: str | None,
 ) -> None:
     """Write a result as a table or an animation, or a machine as a C library, an FMU or a model of another program.
 
@@ -154,43 +92,53 @@ def command(
     An MJCF or URDF file has the rigid part of the machine. The list of what was left out is printed and stands in its comments.
     """
     names = [name.strip() for entry in select for name in entry.split(",") if name.strip()]
-    tables = {".mat": mat, ".parquet": parquet, ".mf4": mdf, ".mcap": mcap}
-    if sum(each is not None for each in (target, folder, unit, page, mjcf, urdf, film, *tables.values())) > 1:
+    wanted = {form: given for form, given in {"c": folder, **files}.items() if given is not None}
+    if len(wanted) > 1:
         raise click.UsageError(
             "one of --csv, --mat, --parquet, --mdf, --mcap, --gltf, --c, --fmu, --page, --mjcf and --urdf is written at a time"
         )
-    if unit is None and (fmi or parameters):
+    form, given = wanted.popitem() if wanted else ("", "")
+    if form != "fmu" and (fmi or parameters):
         raise click.UsageError("--fmi and --parameter belong to --fmu")
-    if platforms and (len(platforms) > 1 if folder is not None else unit is None):
+    if platforms and (len(platforms) > 1 if form == "c" else form != "fmu"):
         raise click.UsageError("--platform belongs to --fmu, or once to --c")
-    if folder is not None:
-        if force:
-            raise click.UsageError("--c takes a machine and a new folder; --force belongs to --csv and --fmu")
-        _write_c_library(source, folder, names, "".join(platforms), overrides)
-    elif unit is not None:
-        _write_fmu(source, unit, names, int(fmi or 3), parameters, platforms, force, overrides)
-    elif page is not None:
-        if names:
-            raise click.UsageError("--select belongs to --csv, --c and --fmu")
-        _write_page(source, page, force, overrides)
-    elif mjcf is not None or urdf is not None:
-        if names:
-            raise click.UsageError("--select belongs to --csv, --c and --fmu")
-        _write_model(source, mjcf, urdf, force, overrides)
-    elif overrides:
+    if form == "c" and force:
+        raise click.UsageError("--c takes a machine and a new folder; --force belongs to --csv and --fmu")
+    if form in ("page", "mjcf", "urdf") and names:
+        raise click.UsageError("--select belongs to --csv, --c and --fmu")
+    if form not in ("c", "fmu", "page", "mjcf", "urdf") and overrides:
         raise click.UsageError("--set changes a machine; it belongs to --c, --fmu, --page, --mjcf and --urdf")
-    elif film is not None:
-        if names:
-            raise click.UsageError("--select belongs to --csv, --c and --fmu")
-        _write_film(source, film, force)
-    elif any(each is not None for each in tables.values()):
-        _write_binary(source, tables, names, force)
+    if form == "gltf" and names:
+        raise click.UsageError("--select belongs to --csv, --c and --fmu")
+    if form == "c":
+        _write_c_library(nivel.api.load(source, overrides), given, names, "".join(platforms))
+        return
+    path = Path(Path(source).with_suffix(SUFFIXES.get(form, f".{form}")).name) if given == BESIDE else Path(given)
+    if form == "fmu":
+        options = {"fmi": int(fmi or 3), "select": names, "parameters": parameters, "platforms": platforms}
+        _write_fmu(nivel.api.load(source, overrides), path, options, force)
+    elif form == "page":
+        _write_page(nivel.api.load(source, overrides), path, force)
+    elif form in ("mjcf", "urdf"):
+        loaded = nivel.api.load(source, overrides)
+        if notes := (loaded.export_urdf if form == "urdf" else loaded.export_mjcf)(path, force=force):
+            click.echo("\n".join(notes))
+        click.echo(f"{form.upper()}: {path}", err=True)
+    elif form == "gltf":
+        nivel.files.target.check_target(path, "glTF file", force=force, sources=[Path(source)])
+        nivel.exchange.gltf_writer.write_gltf(nivel.results.Result.open(source), path)
+        click.echo(f"glTF: {path}", err=True)
+    elif form:
+        _write_table(source, form, path, names, force)
     else:
-        _write_table(source, target, names, force)
+        raise click.UsageError(
+            "say in which form: --csv or --gltf [FILE] of a result; --c FOLDER, --fmu, --page, --mjcf or --urdf [FILE] "
+            "of a machine"
+        )
 
 
-def _write_c_library(machine: str, folder: str, select: list[str], platform: str, overrides: dict[str, str]) -> None:
-    written = nivel.api.load(machine, overrides).export_c(folder, select=select, platform=platform)
+def _write_c_library(machine: Machine, folder: str, select: list[str], platform: str) -> None:
+    written = machine.export_c(folder, select=select, platform=platform)
     sizes = f"{len(written.inputs)} inputs, {len(written.outputs)} outputs, {written.size / 1000:.0f} kB a machine"
     click.echo(
         f"C library: {written.folder}/{written.name}.h, {sizes}; `make -C {written.folder}` builds it",
@@ -201,83 +149,29 @@ def _write_c_library(machine: str, folder: str, select: list[str], platform: str
     )
 
 
-def _write_fmu(
-    machine: str,
-    unit: str,
-    select: list[str],
-    fmi: int,
-    parameters: tuple[str, ...],
-    platforms: tuple[str, ...],
-    force: bool,
-    overrides: dict[str, str],
-) -> None:
-    path = Path(Path(machine).with_suffix(".fmu").name) if unit == BESIDE else Path(unit)
-    loaded = nivel.api.load(machine, overrides)
-    written = loaded.export_fmu(path, fmi=fmi, select=select, parameters=parameters, platforms=platforms, force=force)
+def _write_fmu(machine: Machine, path: Path, options: dict[str, Any], force: bool) -> None:
+    written = machine.export_fmu(path, force=force, **options)
     counts = f"{len(written.inputs)} inputs, {len(written.outputs)} outputs, {len(written.parameters)} parameters"
     size = written.path.stat().st_size / 1000
     systems = " and ".join(written.platforms)
-    click.echo(f"FMU: {written.path}, FMI {fmi}.0 co-simulation for {systems}, {counts}, {size:.0f} kB", err=True)
+    version = f"FMI {options['fmi']}.0 co-simulation"
+    click.echo(f"FMU: {written.path}, {version} for {systems}, {counts}, {size:.0f} kB", err=True)
 
 
-def _write_page(machine: str, page: str, force: bool, overrides: dict[str, str]) -> None:
-    path = Path(Path(machine).with_suffix(".html").name) if page == BESIDE else Path(page)
-    loaded = nivel.api.load(machine, overrides)
+def _write_page(machine: Machine, path: Path, force: bool) -> None:
     with nivel.cli.progress.progress_listener(False) as listener:
-        written = nivel.live.opening.export_page(loaded, path, force=force, listener=listener)
+        written = nivel.live.opening.export_page(machine, path, force=force, listener=listener)
     size = written.path.stat().st_size / 1000
     click.echo(f"page: {written.path}, {len(written.inputs)} inputs, {size:.0f} kB; any browser opens it", err=True)
     click.echo("not verified: the errors of its steps were not examined; `nivel run` estimates them", err=True)
 
 
-def _write_model(machine: str, mjcf: str | None, urdf: str | None, force: bool, overrides: dict[str, str]) -> None:
-    given, suffix = (mjcf, ".xml") if mjcf is not None else (urdf or BESIDE, ".urdf")
-    path = Path(Path(machine).with_suffix(suffix).name) if given == BESIDE else Path(given)
-    loaded = nivel.api.load(machine, overrides)
-    notes = (loaded.export_urdf if mjcf is None else loaded.export_mjcf)(path, force=force)
-    if notes:
-        click.echo("\n".join(notes))
-    click.echo(f"{'URDF' if mjcf is None else 'MJCF'}: {path}", err=True)
-
-
-def _write_film(result: str, film: str, force: bool) -> None:
-    path = Path(Path(result).with_suffix(".glb").name) if film == BESIDE else Path(film)
-    nivel.files.target.check_target(path, "glTF file", force=force, sources=[Path(result)])
-    nivel.exchange.gltf_writer.write_gltf(nivel.results.Result.open(result), path)
-    click.echo(f"glTF: {path}", err=True)
-
-
-def _write_binary(result: str, tables: dict[str, str | None], names: list[str], force: bool) -> None:
-    given, suffix = next((given, suffix) for suffix, given in tables.items() if given is not None)
-    path = Path(Path(result).with_suffix(suffix).name) if given == BESIDE else Path(given)
-    opened = nivel.results.Result.open(result)
-    nivel.files.target.check_target(path, "table", force=force, sources=[Path(result)])
-    writers = {
-        ".mat": nivel.results.frames.csv_table.write_mat,
-        ".parquet": nivel.results.frames.csv_table.write_parquet,
-        ".mf4": nivel.results.frames.csv_table.write_mdf,
-        ".mcap": nivel.results.frames.csv_table.write_mcap,
-    }
-    writers[suffix](opened, path, names)
-    click.echo(f"table: {path}", err=True)
-
-
-def _write_table(result: str, target: str | None, names: list[str], force: bool) -> None:
-    import sys
-
-    if target is None:
-        raise click.UsageError(
-            "say in which form: --csv or --gltf [FILE] of a result; --c FOLDER, --fmu, --page, --mjcf or --urdf [FILE] "
-            "of a machine"
-        )
-    opened = nivel.results.Result.open(result)
-    if target == "-":
-        nivel.results.frames.csv_table.write_table(
-            opened, nivel.results.frames.csv_table.columns(opened, names), sys.stdout
-        )
+def _write_table(result: str, form: str, path: Path, names: list[str], force: bool) -> None:
+    opened, table = nivel.results.Result.open(result), nivel.results.frames.csv_table
+    if form == "csv" and str(path) == "-":
+        table.write_table(opened, table.columns(opened, names), sys.stdout)
         sys.stdout.flush()
         return
-    path = Path(Path(result).with_suffix(".csv").name) if target == BESIDE else Path(target)
     nivel.files.target.check_target(path, "table", force=force, sources=[Path(result)])
-    opened.export_csv(path, names)
+    table.WRITERS[form](opened, path, names)
     click.echo(f"table: {path}", err=True)

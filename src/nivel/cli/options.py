@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
+from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import click
@@ -34,15 +35,19 @@ def assignments(form: str, empty: bool = False) -> Any:
     return read
 
 
-override_option = click.option(
-    "--set",
-    "overrides",
-    multiple=True,
-    metavar="PATH=VALUE",
-    callback=assignments("PATH=VALUE, e.g. bodies.crank.mass='22 kg'", empty=True),
-    help="Set any value of the machine file, e.g. bodies.crank.mass='22 kg'. May be repeated.",
-)
+def set_option(of: str, example: str, more: str = "") -> Any:
+    """Values of the file of a machine or study."""
+    return click.option(
+        "--set",
+        "overrides",
+        multiple=True,
+        metavar="PATH=VALUE",
+        callback=assignments(f"PATH=VALUE, e.g. {example}", empty=True),
+        help=f"Set any value of the {of} file, e.g. {example}{more}. May be repeated.",
+    )
 
+
+override_option = set_option("machine", "bodies.crank.mass='22 kg'")
 
 input_option = click.option(
     "--input",
@@ -66,6 +71,21 @@ no_report_option = click.option("--no-report", is_flag=True, help="Write no HTML
 json_option = click.option("--json", "as_json", is_flag=True, help="Print the results as JSON on standard output.")
 
 quiet_option = click.option("--quiet", is_flag=True, help="Print errors only.")
+
+
+resume_option = click.option("--resume", is_flag=True, help="Go on with an interrupted study.")
+
+
+def out_option(what: str, name: str, form: str | None = "FILE.nc", **more: Any) -> Any:
+    """The file of what is computed, `name` by default."""
+    text = f"{what}; default: {name} in the working directory."
+    return click.option("-o", "--out", metavar=form, type=click.Path(dir_okay=False, path_type=Path), help=text, **more)
+
+
+def report_option(of: str) -> Any:
+    """The page of what is computed, beside the file that it is `of`."""
+    text = f"HTML page; default: the name of the {of} with .html."
+    return click.option("--report", type=click.Path(dir_okay=False, path_type=Path), help=text)
 
 
 def separated(_context: click.Context, _parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...] | None:

@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING
 
 import click
 
-from nivel.cli.options import file_argument, force_option, json_option, no_report_option, override_option, quiet_option
+from nivel.cli.options import (
+    file_argument,
+    force_option,
+    json_option,
+    no_report_option,
+    out_option,
+    override_option,
+    quiet_option,
+    report_option,
+)
 from nivel.cli.progress import progress_stage
 from nivel.errors import ModelError
 from nivel.lazy import nivel, rich
@@ -23,17 +32,8 @@ SHOWN = 15  # modes in the table of the terminal
 @click.command(short_help="Reduce a finite-element model to a flexible body.")
 @file_argument("model")
 @override_option
-@click.option(
-    "-o",
-    "--out",
-    type=click.Path(dir_okay=False, path_type=Path),
-    help="Body file; default: NAME.nc in the working directory.",
-)
-@click.option(
-    "--report",
-    type=click.Path(dir_okay=False, path_type=Path),
-    help="HTML page; default: the name of the body file with .html.",
-)
+@out_option("Body file", "NAME.nc", None)
+@report_option("body file")
 @no_report_option
 @click.option(
     "--vtk",

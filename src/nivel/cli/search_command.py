@@ -11,102 +11,42 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from nivel.cli.analysis_command import StudyOrder, study_command
 from nivel.cli.failures import COMPUTATION_FAILED
-from nivel.cli.options import (
-    allow_code_option,
-    file_argument,
-    force_option,
-    json_option,
-    no_report_option,
-    quiet_option,
-)
-from nivel.cli.sweep import is_complete, resume_option, say_how_to_go_on, set_option
-from nivel.errors import ModelError, SolveError
-from nivel.lazy import dataclass, nivel, rich
+from nivel.cli.sweep import is_complete, say_how_to_go_on
+from nivel.errors import SolveError
+from nivel.lazy import nivel, rich
 
 if TYPE_CHECKING:
     from nivel.analysis.optimise.identify import Identified
     from nivel.analysis.optimise.optimise import Optimum
-    from nivel.studies import Study
 
-Command = Callable[..., Any]
-
-OPTIONS = (
-    file_argument("study"),
-    set_option,
-    allow_code_option,
-    click.option(
-        "-o",
-        "--out",
-        metavar="FILE.nc",
-        type=click.Path(dir_okay=False, path_type=Path),
-        help="Data file; default: NAME.nc in the working directory.",
-    ),
-    click.option(
-        "--threads",
-        type=click.IntRange(1),
-        metavar="NUMBER",
-        help="Runs beside each other; default: one for each processor.",
-    ),
-    resume_option,
-    force_option,
-    no_report_option,
-    quiet_option,
-    json_option,
-)
+Facts = Callable[[Any], dict[str, Any]]
+SEARCH = ("--threads", "Runs beside each other; default: one for each processor.")
 
 
-def search_options(command: Command) -> Command:
-    """Give a command all OPTIONS, in their order."""
-    for option in reversed(OPTIONS):
-        command = option(command)
-    return command
+def make_search(order: StudyOrder, method: str, facts: Facts, say: Callable[[Any], None]) -> Any:
+    """Make the search that a `method` of studies is, and the files. The machine that was found runs once more, to say how exact it is.
 
-
-@dataclass(frozen=True)
-class Given:
-    """What the command line says."""
-
-    study: str
-    overrides: dict[str, str]
-    allow_code: bool
-    out: Path | None
-    threads: int | None
-    resume: bool
-    force: bool
-    no_report: bool
-    quiet: bool
-    as_json: bool
-
-
-@dataclass(frozen=True)
-class Kind:
-    """A kind of search. search : of a study, with `out`, `threads`, `resume` and `force`; facts : what was found, for programs; say : the
-    same for people; is_found : whether nothing is left open. Their results have `dataset` and `evaluations`."""
-
-    search: Callable[..., Any]
-    facts: Callable[[Any], dict[str, Any]]
-    say: Callable[[Any], None]
-    is_found: Callable[[Any], bool]
-
-
-def make_search(given: Given, kind: Kind) -> None:
-    """Make the search, and the files. The machine that was found runs once more, to say how exact it is.
-
-    Where no start has a result, the data file has all variants nevertheless.
+    Where no start has a result, the data file has all variants nevertheless. facts : what was found, for programs; say : the same for
+    people. Returns it, with `dataset` and `evaluations`; None where nothing was left to compute.
     """
-    loaded = nivel.studies.load_study(given.study, given.overrides, allow_code=given.allow_code)
-    target, page = _targets(loaded, given)
-    if given.resume and is_complete(target, page, given.quiet):
-        return
+    loaded = nivel.studies.load_study(order.study, order.overrides, allow_code=order.allow_code)
+    target, page = order.targets(loaded)
+    sources, replaces = [Path(order.study), Path(loaded.file.machine_file)], order.force or order.resume
+    nivel.files.target.check_target(target, "data file", force=replaces, sources=sources)
+    if page is not None:
+        nivel.files.target.check_target(page, "report", force=replaces, sources=sources)
+    if order.resume and is_complete(target, page, order.quiet):
+        return None
     try:
-        found = kind.search(loaded, out=target, threads=given.threads, resume=given.resume, force=given.force)
+        found = getattr(loaded, method)(out=target, threads=order.count, resume=order.resume, force=order.force)
     except (nivel.analysis.optimise.evaluations.NothingFoundError, SolveError) as error:
         table: Any = error.result
         if table is not None:
             if page is not None:
                 nivel.studies.write_study_report(table, page)
-            if not given.quiet:
+            if not order.quiet:
                 click.echo(f"all variants: {target}", err=True)
         raise
     except KeyboardInterrupt:
@@ -115,27 +55,13 @@ def make_search(given: Given, kind: Kind) -> None:
     trust = nivel.results.trust.Trust.from_json(found.dataset.attrs["trust"])
     if page is not None:
         nivel.studies.write_study_report(found.dataset, page)
-    if given.as_json:
-        click.echo(json.dumps({**kind.facts(found), "headline": str(trust.headline)}, indent=2))
-    if not given.quiet:
-        kind.say(found)
+    if order.as_json:
+        click.echo(json.dumps({**facts(found), "headline": str(trust.headline)}, indent=2))
+    if not order.quiet:
+        say(found)
         click.echo(f"{found.evaluations} runs; the machine that was found: {trust.headline}", err=True)
         click.echo(f"data: {target}" + ("" if page is None else f"\nreport: {page}"), err=True)
-    if not kind.is_found(found):
-        raise SystemExit(COMPUTATION_FAILED)
-
-
-def _targets(study: Study, given: Given) -> tuple[Path, Path | None]:
-    """Data file and report. Raises ModelError where one exists and is not to be replaced."""
-    target = given.out or Path(f"{study.file.record.name}.nc")
-    page = None if given.no_report else nivel.cli.analysis_command.beside(target)
-    if page == target:
-        raise ModelError(f"{target}: the report would be written over the data file; use a name ending in .nc")
-    sources = [Path(given.study), Path(study.file.machine_file)]
-    nivel.files.target.check_target(target, "data file", force=given.force or given.resume, sources=sources)
-    if page is not None:
-        nivel.files.target.check_target(page, "report", force=given.force or given.resume, sources=sources)
-    return target, page
+    return found
 
 
 def numbers_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
@@ -146,9 +72,8 @@ def numbers_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     rich.console.Console().print(table)
 
 
-@click.command(short_help="Find the best values of a machine's parameters.")
-@search_options
-def optimise(**given: Any) -> None:
+@study_command("Find the best values of a machine's parameters.", *SEARCH)
+def optimise(order: StudyOrder) -> None:
     """Find the values of the parameters of STUDY with which one of its outputs is least, within the limits of the others.
 
     The study says so with `optimise: {output: NAME}`. The data file and the report have every variant that was computed. The best
@@ -156,13 +81,9 @@ def optimise(**given: Any) -> None:
 
     Exit codes: 0 a best one within all limits was found, 2 fault in the input, 3 no values keep all limits, or runs fail.
     """
-    kind = Kind(
-        lambda study, **options: study.optimise(**options),
-        facts=_facts_of_optimum,
-        say=_say_optimum,
-        is_found=lambda found: found.kept,
-    )
-    make_search(Given(**given), kind)
+    found = make_search(order, "optimise", _facts_of_optimum, _say_optimum)
+    if found is not None and not found.kept:
+        raise SystemExit(COMPUTATION_FAILED)
 
 
 def _facts_of_optimum(found: Optimum) -> dict[str, Any]:
@@ -184,9 +105,8 @@ def _say_optimum(found: Optimum) -> None:
     click.echo(f"{kept}; {found.message}", err=True)
 
 
-@click.command(short_help="Find the values of a machine's parameters from measurements.")
-@search_options
-def identify(**given: Any) -> None:
+@study_command("Find the values of a machine's parameters from measurements.", *SEARCH)
+def identify(order: StudyOrder) -> None:
     """Find the values of the parameters of STUDY with which the machine moves as it was measured, by least squares.
 
     The study names the measurements with `identify: {data: FILE.csv}`. The data file and the report have every variant that was
@@ -195,13 +115,9 @@ def identify(**given: Any) -> None:
 
     Exit codes: 0 all parameters were found, 2 fault in the input, 3 the measurements do not tell some of them apart, or runs fail.
     """
-    kind = Kind(
-        lambda study, **options: study.identify(**options),
-        facts=_facts_of_fit,
-        say=_say_fit,
-        is_found=lambda found: not found.undetermined,
-    )
-    make_search(Given(**given), kind)
+    found = make_search(order, "identify", _facts_of_fit, _say_fit)
+    if found is not None and found.undetermined:
+        raise SystemExit(COMPUTATION_FAILED)
 
 
 def _facts_of_fit(found: Identified) -> dict[str, Any]:

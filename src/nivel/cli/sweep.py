@@ -13,17 +13,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
+from nivel.cli.analysis_command import StudyOrder, study_command
 from nivel.cli.failures import COMPUTATION_FAILED
-from nivel.cli.options import (
-    allow_code_option,
-    assignments,
-    file_argument,
-    force_option,
-    json_option,
-    no_report_option,
-    quiet_option,
-)
-from nivel.errors import ModelError
 from nivel.lazy import nivel, numpy, rich
 from nivel.words.wording import seconds
 
@@ -36,49 +27,14 @@ SHOWN: Final = 8  # variants in the live table, and reasons in the summary
 COLUMNS: Final = 8  # numbers in a row of the live table
 STYLES: Final = {"done": "green", "stopped": "green", "refused": "yellow"}
 
-set_option = click.option(
-    "--set",
-    "overrides",
-    multiple=True,
-    metavar="PATH=VALUE",
-    callback=assignments("PATH=VALUE, e.g. samples=256", empty=True),
-    help="Set any value of the study file, e.g. samples=256 or verify=true. May be repeated.",
+
+@study_command(
+    "Compute many variants of a machine: data file, report, summary.",
+    "--workers",
+    "Processes; default: one for each processor.",
+    click.option("--scheduler", default="", metavar="ADDRESS", help="Compute on the Dask cluster with this scheduler."),
 )
-
-resume_option = click.option("--resume", is_flag=True, help="Go on with an interrupted study.")
-
-
-@click.command(short_help="Compute many variants of a machine: data file, report, summary.")
-@file_argument("study")
-@set_option
-@allow_code_option
-@click.option(
-    "-o",
-    "--out",
-    metavar="FILE.nc",
-    type=click.Path(dir_okay=False, path_type=Path),
-    help="Data file; default: NAME.nc in the working directory.",
-)
-@click.option("--workers", type=click.IntRange(1), metavar="NUMBER", help="Processes; default: one for each processor.")
-@click.option("--scheduler", default="", metavar="ADDRESS", help="Compute on the Dask cluster with this scheduler.")
-@resume_option
-@force_option
-@no_report_option
-@quiet_option
-@json_option
-def command(
-    study: str,
-    overrides: dict[str, str],
-    allow_code: bool,
-    out: Path | None,
-    workers: int | None,
-    scheduler: str,
-    resume: bool,
-    force: bool,
-    no_report: bool,
-    quiet: bool,
-    as_json: bool,
-) -> None:
+def command(order: StudyOrder, scheduler: str) -> None:
     """Compute the variants of STUDY, a file that names a machine, what varies, an analysis and its outputs.
 
     Variants that fail, take longer than the time limit, or end their process are rows of the table with their reason. Until all are
@@ -86,31 +42,21 @@ def command(
 
     Exit codes: 0 the variants were computed, 2 fault in the input, 3 every variant failed, 130 interrupted.
     """
-    loaded = nivel.studies.load_study(study, overrides, allow_code=allow_code)
-    target = out or Path(f"{loaded.file.record.name}.nc")
-    page = None if no_report else nivel.cli.analysis_command.beside(target)
-    if page == target:
-        raise ModelError(f"{target}: the report would be written over the data file; use a name ending in .nc")
-    if resume and is_complete(target, page, quiet):
+    loaded = nivel.studies.load_study(order.study, order.overrides, allow_code=order.allow_code)
+    target, page = order.targets(loaded)
+    if order.resume and is_complete(target, page, order.quiet):
         return
     if page is not None:
-        nivel.files.target.check_target(page, "report", force=force or resume, sources=[Path(study)])
-    with _progress(loaded, quiet) as (listener, heard):
-        found = loaded.sweep(
-            out=target,
-            workers=workers,
-            scheduler=scheduler,
-            resume=resume,
-            force=force,
-            listener=listener,
-            heard=heard,
-        )
+        nivel.files.target.check_target(page, "report", force=order.force or order.resume, sources=[Path(order.study)])
+    with _progress(loaded, order.quiet) as (listener, heard):
+        engine = {"workers": order.count, "scheduler": scheduler, "listener": listener, "heard": heard}
+        found = loaded.sweep(out=target, resume=order.resume, force=order.force, **engine)
     interrupted = "not run" in found["outcome"].values
     if page is not None and not interrupted:
         nivel.studies.write_study_report(found, page)
-    if as_json:
+    if order.as_json:
         click.echo(json.dumps(summary(found), indent=2))
-    if not quiet:
+    if not order.quiet:
         _say(found, target, page, interrupted)
     if interrupted:
         raise KeyboardInterrupt

@@ -155,3 +155,7 @@ def write_mcap(result: Result, path: Path, select: Iterable[str] = ()) -> None:
             instant = round(float(time) * 1e9)
             out.add_message(channel, log_time=instant, data=content, publish_time=instant)
         out.finish()
+
+
+# by the option of `nivel export`
+WRITERS = {"csv": write_csv, "mat": write_mat, "parquet": write_parquet, "mdf": write_mdf, "mcap": write_mcap}

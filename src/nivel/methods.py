@@ -24,9 +24,8 @@ Formulation = Literal["newton-euler", "lagrange", "penalty", "augmented-lagrangi
 Coordinates = Literal["auto", "absolute", "relative", "independent"]
 StaticCoordinates = Literal["auto", "absolute", "relative"]  # of analyses other than runs
 Planned = Literal["fractional-factorial", "box-behnken", "central-composite"]  # designs of a few levels between bounds
-Combination = Literal[
-    "grid", "rows", "fractional-factorial", "box-behnken", "central-composite"
-]  # of the values of a sweep
+# of the values of a sweep
+Combination = Literal["grid", "rows", "fractional-factorial", "box-behnken", "central-composite"]
 Drawn = Literal["latin-hypercube", "random", "sobol", "sobol-indices"]  # designs of samples
 Analysis = Literal["run", "statics", "kinematics", "linearise", "inverse"]  # of the variants of a sweep
 Rotations = Literal["euler-parameters", "euler-angles", "rotation-vector"]

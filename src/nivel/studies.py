@@ -100,10 +100,8 @@ class Study:
         )
         listener = listener or Listener()
         target = None if out is None else Path(fspath(out))
-        of, count = (
-            nivel.analysis.sweep.variant.study_fingerprint(task, variants),
-            f"of {len(variants.values)} variants",
-        )
+        of = nivel.analysis.sweep.variant.study_fingerprint(task, variants)
+        count = f"of {len(variants.values)} variants"
         with self._journal(target, of, count, resume=resume, force=force) as journal:
             code_of(self.machine, record.analysis, listener)
             engine = nivel.analysis.sweep.sweep.Engine(
@@ -159,13 +157,8 @@ class Study:
                 outputs={name: self._output(name, units) for name in outputs},
                 limits={name: each.limits for name, each in outputs.items() if each.limits != (None, None)},
                 method=search.method,
-                starts=search.starts,
-                seed=search.seed,
-                iterations=search.iterations,
-                time_limit=self.file.record.time_limit,
+                **self._shared(search),
                 threads=threads,
-                analysis=self.file.record.analysis,
-                analysis_settings=self.resolved.settings,
                 journal=journal,
                 listener=listener,
             )
@@ -198,13 +191,8 @@ class Study:
                 beside(self.file.file, search.data),
                 self._bounds,
                 deviations=search.deviations,
-                starts=search.starts,
-                seed=search.seed,
-                iterations=search.iterations,
-                time_limit=self.file.record.time_limit,
+                **self._shared(search),
                 threads=threads,
-                analysis=self.file.record.analysis,
-                analysis_settings=self.resolved.settings,
                 journal=journal,
                 listener=listener,
             )
@@ -259,6 +247,13 @@ class Study:
             write_netcdf(found.dataset, journal.target)
             journal.complete = True
         return found
+
+    def _shared(self, search: Any) -> dict[str, Any]:
+        """What all searches take of the study."""
+        its = {name: getattr(search, name) for name in ("starts", "seed", "iterations")}
+        record = self.file.record
+        about = {"analysis": record.analysis, "analysis_settings": self.resolved.settings}
+        return {**its, **about, "time_limit": record.time_limit}
 
     @property
     def _bounds(self) -> dict[str, tuple[float, float]]:

@@ -30,13 +30,8 @@ if TYPE_CHECKING:
     from nivel.view.server import Stop
 
 SIGNALLED: Final = 128  # and the number of the signal: the exit code
-KEYS: Final = {
-    "ArrowLeft": "←",
-    "ArrowRight": "→",
-    "ArrowUp": "↑",
-    "ArrowDown": "↓",
-    " ": "space",
-}  # as the page shows them
+# as the page shows them
+KEYS: Final = {"ArrowLeft": "←", "ArrowRight": "→", "ArrowUp": "↑", "ArrowDown": "↓", " ": "space"}
 TOLD: Final = 1.0  # s in which pages hear that the solver has ended
 
 
@@ -103,10 +98,8 @@ def command(
     if target is not None:
         nivel.files.target.check_target(target, "recording", force=force, sources=[Path(machine)])
         nivel.live.journal.check_journal(nivel.live.journal.journal_of(target), force=force)
-    listen, send = (
-        udp and nivel.live.datagrams.place_of(udp, "udp"),
-        udp_to and nivel.live.datagrams.place_of(udp_to, "udp_to"),
-    )
+    listen = udp and nivel.live.datagrams.place_of(udp, "udp")
+    send = udp_to and nivel.live.datagrams.place_of(udp_to, "udp_to")
     loaded = nivel.api.load(machine, overrides, allow_code=allow_code)
     stop = nivel.view.server.Stop()
     with orderly_end(stop), ExitStack() as stack:

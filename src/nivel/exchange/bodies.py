@@ -14,9 +14,8 @@ from nivel.machine.bodies.inertia import impossible, point_mass_inertia
 from nivel.machine.core.orientation import Orientation, rotation_matrix
 
 FLOOR: Final = 1e-11  # of the largest principal moment: the least one that a moment by round-off is raised to
-ROUND_OFF: Final = (
-    1e-6  # of the largest moment: by so much a moment may be negative or too large by the round-off of its file
-)
+# of the largest moment: by so much a moment may be negative or too large by the round-off of its file
+ROUND_OFF: Final = 1e-6
 MASSLESS: Final = 1e-15  # of the mass that a link without mass carries: the mass that it gets
 
 

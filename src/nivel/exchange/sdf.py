@@ -164,13 +164,8 @@ class _Model:
 
     def __init__(self, element: Element, document: Document, mechanism: Mechanism, prefix: str, version: float) -> None:
         home = pose_of(element, document)
-        self.element, self.document, self.mechanism, self.prefix, self.version = (
-            element,
-            document,
-            mechanism,
-            prefix,
-            version,
-        )
+        self.element, self.document, self.mechanism = element, document, mechanism
+        self.prefix, self.version = prefix, version
         self.poses = Poses(document, placed={THE_WORLD: Frame(), "": home, MODEL: home})
         self.attached: dict[str, str] = {}
 

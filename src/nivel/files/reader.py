@@ -79,9 +79,8 @@ def _origin(tree: Tree, steps: Path) -> Path:
     return ("include",) if "include" in tree.data else steps
 
 
-SETTING = re.compile(
-    r"`(\w+)(?:`|: ([^`]*)`)"
-)  # in messages, which name a setting as `step`, or with what it is as `step: 1 ms`
+# in messages, which name a setting as `step`, or with what it is as `step: 1 ms`
+SETTING = re.compile(r"`(\w+)(?:`|: ([^`]*)`)")
 
 OUTSIDE = " (set from outside the file)"
 

@@ -59,9 +59,8 @@ def _evenly(times: Array) -> Numbers:
     count = len(times)
     if np.any(np.diff(times) <= 0.0):
         return np.unique(np.linspace(0, count - 1, SHAPES).astype(int))
-    wanted = np.linspace(times[0], times[-1], SHAPES) - 1e-9 * (
-        times[-1] - times[0]
-    )  # a frame at this time is not missed
+    # a frame at this time is not missed
+    wanted = np.linspace(times[0], times[-1], SHAPES) - 1e-9 * (times[-1] - times[0])
     return np.unique(np.searchsorted(times, wanted).clip(max=count - 1))
 
 

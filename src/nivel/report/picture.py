@@ -243,9 +243,7 @@ def _text(label: Label, x: float, y: float) -> str:
     leader = ""
     if far > 40.0 and label.kind != WITHOUT_LINE:
         ux, uy = (x - label.x) / far, (y - label.y) / far
-        start, stop = (
-            (label.x + 9.0 * ux, label.y + 9.0 * uy),
-            (label.x + (far - 14.0) * ux, label.y + (far - 14.0) * uy),
-        )
+        start = (label.x + 9.0 * ux, label.y + 9.0 * uy)
+        stop = (label.x + (far - 14.0) * ux, label.y + (far - 14.0) * uy)
         leader = f'<path class="leader" d="M{start[0]:.1f} {start[1]:.1f}L{stop[0]:.1f} {stop[1]:.1f}"/>'
     return f'{leader}<text class="{label.kind}" x="{x:.1f}" y="{y + 0.35 * FONT:.1f}">{escape(label.text)}</text>'

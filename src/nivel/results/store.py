@@ -67,9 +67,8 @@ class Store:
         self._variables = [(variable, shape_of(variable, coordinates)) for variable in variables.values()]
         try:
             if self._force:
-                check_target(
-                    self.path, "result file", force=True
-                )  # what stood there when the run began may have been replaced
+                # what stood there when the run began may have been replaced
+                check_target(self.path, "result file", force=True)
                 self.path.unlink(missing_ok=True)  # who reads the old file keeps it
             self._file = h5py.File(self.path, "x", libver="latest", locking="best-effort", track_order=True)
             self._own = self.path.stat()

@@ -99,9 +99,8 @@ def _forces(cast: Cast, moments: Moments, read: Read) -> Iterator[Traced]:
             rate = read(f"force.{force.name}.rate")
             if rate is None:
                 continue
-            pulls = -_signed(magnitude, power, rate)[:, None] * _unit(
-                apart
-            )  # on the first body, positive where it pulls
+            # on the first body, positive where it pulls
+            pulls = -_signed(magnitude, power, rate)[:, None] * _unit(apart)
             for k, sign in ((0, 1.0), (1, -1.0)):
                 if force.bodies[k] >= 0:
                     yield Traced(force.name, "applied", "force", force.bodies[k], force.points[k], sign * pulls)

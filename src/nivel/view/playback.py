@@ -21,12 +21,8 @@ from nivel.view.records import PROTOCOL, Arrow, Column, Flexible, Joint, Moment,
 from nivel.view.stage import Cast, cast, flexible
 
 MOST: Final = 20_000  # variables that are listed
-PREFIXES: Final = (
-    "force.",
-    "driver.",
-    "coupling.",
-    "hydraulics.",
-)  # of variables that belong to what is named after them
+# of variables that belong to what is named after them
+PREFIXES: Final = ("force.", "driver.", "coupling.", "hydraulics.")
 # what is carried first where not all has room; of equal ones those that stand first in the result
 FIRST: Final = (
     "joint_coordinate",

@@ -78,9 +78,8 @@ class Stream:
         self._seen.set()
         self._number = 0
         self._sampled = 0  # number of the last sample that was sent
-        self._wish: Move | Reset | None = (
-            None  # the newest only: a slider that is dragged says more than can be computed
-        )
+        # the newest only: a slider that is dragged says more than can be computed
+        self._wish: Move | Reset | None = None
         self._wished = asyncio.Event()
         self.frame_count = 0
         self.dropped_count = 0  # messages that were not understood, or too many

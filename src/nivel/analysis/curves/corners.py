@@ -182,9 +182,8 @@ def allowed_steps(machine: MachineRecord, duration: float) -> Array:
         at, seen = with_features(curve, time, np.nan_to_num(values))
         with np.errstate(over="ignore"):  # a jump has no slope that is a number
             slope = np.abs(np.diff(seen)) / np.maximum(np.diff(at), 1e-300)
-        slope[np.diff(at) < 1.5 * duration / (PARTS * SAMPLES_OF_A_PART * 2**HALVINGS)] = (
-            0.0  # a jump, which no step resolves
-        )
+        # a jump, which no step resolves
+        slope[np.diff(at) < 1.5 * duration / (PARTS * SAMPLES_OF_A_PART * 2**HALVINGS)] = 0.0
         part = np.minimum((0.5 * (at[:-1] + at[1:]) / duration * PARTS).astype(int), PARTS - 1)
         steepest = np.zeros(PARTS)
         np.maximum.at(steepest, part, slope)

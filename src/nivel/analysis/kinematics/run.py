@@ -151,10 +151,8 @@ def between(prepared: Prepared, settings: RunSettings) -> Probes:
 def hidden(machine: MachineRecord, prepared: Prepared, steps: RunSettings) -> dict[str, list[float]]:
     """By variable what drivers' functions of time do between positions, beyond the curve through these: bounds of the functions find it,
     however short it is."""
-    time, names = (
-        np.linspace(0.0, steps.duration, steps.steps + 1),
-        prepared.motion.system.layout.coordinates["joint_coordinate"],
-    )
+    time = np.linspace(0.0, steps.duration, steps.steps + 1)
+    names = prepared.motion.system.layout.coordinates["joint_coordinate"]
     out: dict[str, list[float]] = {}
     for driver in machine.drivers:
         named = [k for k, name in enumerate(names) if f"{name}.".startswith(f"{driver.coordinate}.")]

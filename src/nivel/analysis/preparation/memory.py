@@ -150,10 +150,8 @@ def _roles(record_class: Any) -> Mapping[str, Role]:
 def _computed(functions: Functions) -> NDArray[np.bool_]:
     """Which entries of `arguments` are arguments, results of instructions, or derivatives, and not numbers of a program."""
     on_lanes = functions.arguments.ndim == 2
-    values, program = (
-        functions.arguments[:, 0] if on_lanes else functions.arguments,
-        run.dual_address if on_lanes else run.address,
-    )
+    values = functions.arguments[:, 0] if on_lanes else functions.arguments
+    program = run.dual_address if on_lanes else run.address
     out = np.zeros(len(values), dtype=bool)
     out[functions.argument[:, 3]] = True
     for kind, address, (first, end, behind, at) in zip(

@@ -9,106 +9,19 @@ from contextlib import ExitStack, closing, contextmanager
 from time import perf_counter
 from typing import Any
 
-import numpy as np
 import xarray
-from numpy.typing import NDArray
 
 from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.log import Listener, Log
 from nivel.analysis.progress.pacing import interruptible
 from nivel.analysis.sweep.outputs import Task
 from nivel.analysis.sweep.processes import Job, client_of, run_in_processes, run_on_cluster, threads_of
-from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, row_of, run_of, run_variant
+from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, collected, row_of, run_of, run_variant
 from nivel.analysis.sweep.variants import Variants
 from nivel.errors import ModelError
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Sweep, Variant
 from nivel.lazy import dataclass, rich
-from nivel.machine.study import Output
-
-# facts of every run: attribute of VariantRun, and what it is
-FACTS = {
-    "outcome": "done, stopped by an event, failed, refused, timed out, killed, or not run",
-    "reason": "why it came to no end, or was stopped",
-    "end_time": "time reached",
-    "verdict": "of the trust report; `not verified` in place of green where not all was verified",
-    "verified": "whether a second run, and other elements of beams, estimated the error of the run",
-    "headline": "how exact the run is, in a sentence",
-    "estimated_error": "estimated largest error of a position",
-}
-UNITS = {"end_time": "s", "estimated_error": "m"}
-
-
-def collected(
-    variants: Variants, runs: Sequence[VariantRun], outputs: Mapping[str, Output], attributes: Mapping[str, Any]
-) -> xarray.Dataset:
-    """Dimensions of the variants, then time, then those of the variable; NaN where a run did not come. Outputs have no time.
-
-    Times are those of the frames that the runs have at their output interval; a last frame beside it is left to `end_time`.
-    """
-    times = _common_times(runs)
-    data: dict[str, Any] = {name: _fact(variants, runs, name) for name in FACTS}
-    coords: dict[str, Any] = {
-        name: (dim, list(values), {"long_name": f"value of {name}"})
-        for name, (dim, values) in variants.coordinates.items()
-    }
-    if len(times):
-        coords["time"] = ("time", times, {"units": "s", "long_name": "time"})
-    data |= {name: _output(variants, runs, name, each) for name, each in outputs.items()}
-    kept: dict[str, VariantRun] = {}
-    for run in runs:
-        for name in run.saved:
-            kept.setdefault(name, run)
-    for name, first in kept.items():
-        one = first.saved[name]
-        coords |= {dim: (dim, list(names)) for dim, names in one.names.items()}
-        dims = (*variants.dimensions, "time", *one.dims)
-        values = np.full((len(runs), len(times), *one.values.shape[1:]), np.nan)
-        for k, run in enumerate(runs):
-            if name in run.saved:
-                _place(values[k], times, run.time, run.saved[name].values)
-        shaped = values.reshape((*variants.shape, *values.shape[1:]))
-        data[name] = (dims, shaped, {"units": one.units, "long_name": one.long_name})
-    return xarray.Dataset(data, coords=coords, attrs=dict(attributes))
-
-
-def _fact(variants: Variants, runs: Sequence[VariantRun], name: str) -> tuple[Any, ...]:
-    values = np.array([getattr(run, name) for run in runs])
-    units = {"units": UNITS[name]} if name in UNITS else {}
-    return variants.dimensions, values.reshape(variants.shape), {"long_name": FACTS[name], **units}
-
-
-def _output(variants: Variants, runs: Sequence[VariantRun], name: str, output: Output) -> tuple[Any, ...]:
-    """The numbers of an output, with the limits that it has; NaN where there is none."""
-    numbers = [run.outputs.get(name) for run in runs]
-    values = np.array([np.nan if each is None else each.value for each in numbers])
-    facts: dict[str, Any] = {"units": next((each.units for each in numbers if each is not None), "")}
-    facts["long_name"] = " ".join(filter(None, (output.type, getattr(output, "of", ""))))
-    facts |= {
-        key: limit for key, limit in zip(("at_least", "at_most"), output.limits, strict=True) if limit is not None
-    }
-    return variants.dimensions, values.reshape(variants.shape), facts
-
-
-def _common_times(runs: Sequence[VariantRun]) -> NDArray[np.float64]:
-    """All times of frames, those of one moment once; a last one at which only an event or a failure ended is left out."""
-    rows = [run.time for run in runs if len(run.time)]
-    if not rows:
-        return np.zeros(0)
-    longest = max(rows, key=len)
-    near = 1e-9 * max(float(longest[-1]), 1e-300)
-    every = np.unique(np.concatenate([row[:-1] if row is not longest and len(row) > 1 else row for row in rows]))
-    new = np.append(True, np.diff(every) > near)
-    return every[new]
-
-
-def _place(out: NDArray[np.float64], times: NDArray[np.float64], own: NDArray[np.float64], values: Any) -> None:
-    """Put frames at their `own` times into `out`, at the nearest of `times`."""
-    near = 1e-9 * max(float(times[-1]), 1e-300)
-    at = np.clip(np.searchsorted(times, own - near), 0, len(times) - 1)
-    fits = np.abs(times[at] - own) <= near
-    out[at[fits]] = values[fits]
-
 
 # A process takes about this long to start [s]; what is done sooner is done here.
 WORTH_A_PROCESS = 2.0

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from typing import Any, Final
 
 import numpy as np
+import xarray
 from numpy.typing import NDArray
 
 from nivel.analysis.plan.plan import plan_run
-from nivel.analysis.progress.journal import Row, count_finished, fingerprint, packed, unpacked
+from nivel.analysis.progress.journal import Row, fingerprint, packed, unpacked
 from nivel.analysis.run.simulate import simulate
 from nivel.analysis.sweep.outputs import Found, Number, OutputFailedError, Task, outputs_of, usual_names
-from nivel.analysis.sweep.variant_runs import JudgedRuns, VariantRuns, analysed, formulas_for, judged_runs
+from nivel.analysis.sweep.variant_runs import JudgedRuns, Ran, VariantRuns, analysed, formulas_for, judged_runs
 from nivel.analysis.sweep.variants import Variants
 from nivel.errors import ModelError, NivelError, SolveError
 from nivel.lazy import dataclass, field, replace
+from nivel.machine.study import Output
 from nivel.model import Model
 from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.result import Result
@@ -132,13 +134,19 @@ def _unjudged(task: Task, values: Mapping[str, Any]) -> VariantRun:
     ran = runs.run(values)
     if ran.result is None:
         return VariantRun(ran.outcome, ran.reason)
-    save = task.save or (() if task.outputs else usual_names(ran.result))
+    kept = kept_of(ran, task.save or (() if task.outputs else usual_names(ran.result)))
+    return kept if ran.outcome == FAILED else _with_outputs(kept, ran.result, task)
+
+
+def kept_of(ran: Ran, save: Sequence[str]) -> VariantRun:
+    """A run without a trust report, with the histories `save`. Raises ModelError where its result has no such name."""
+    if ran.result is None:
+        return VariantRun(ran.outcome, ran.reason)
     # the memory of the result is that of the next run
     saved = {name: replace(each, values=each.values.copy()) for name in save for each in [_saved(ran.result, name)]}
     time = ran.result.time.copy() if saved else np.zeros(0)
     end = _end(ran.result)
-    kept = VariantRun(ran.outcome, ran.reason, end, loop_seconds=ran.loop_seconds, time=time, saved=saved)
-    return kept if ran.outcome == FAILED else _with_outputs(kept, ran.result, task)
+    return VariantRun(ran.outcome, ran.reason, end, loop_seconds=ran.loop_seconds, time=time, saved=saved)
 
 
 def _computed(machine: Model, task: Task, values: Mapping[str, Any]) -> Found:
@@ -188,9 +196,6 @@ def _saved(result: Result, name: str) -> Saved:
     return Saved(dims, names, result.units(name), variable.long_name, result.array(name))
 
 
-__all__ = ["count_finished", "row_of", "run_of", "study_fingerprint"]
-
-
 def study_fingerprint(task: Task, variants: Variants) -> str:
     """Of a sweep."""
     outputs = {name: output.model_dump(mode="json") for name, output in task.outputs.items()}
@@ -226,3 +231,92 @@ def run_of(row: Row) -> VariantRun:
         for name, (dims, names, units, long_name, values) in row["saved"].items()
     }
     return VariantRun(**{**row, "time": unpacked(row["time"]), "outputs": outputs, "saved": saved})
+
+
+# facts of every run: attribute of VariantRun, and what it is
+FACTS = {
+    "outcome": "done, stopped by an event, failed, refused, timed out, killed, or not run",
+    "reason": "why it came to no end, or was stopped",
+    "end_time": "time reached",
+    "verdict": "of the trust report; `not verified` in place of green where not all was verified",
+    "verified": "whether a second run, and other elements of beams, estimated the error of the run",
+    "headline": "how exact the run is, in a sentence",
+    "estimated_error": "estimated largest error of a position",
+}
+UNITS = {"end_time": "s", "estimated_error": "m"}
+
+
+def collected(
+    variants: Variants,
+    runs: Sequence[VariantRun],
+    outputs: Mapping[str, Output],
+    attributes: Mapping[str, Any],
+    facts: Mapping[str, str] = FACTS,
+) -> xarray.Dataset:
+    """Dimensions of the variants, then time, then those of the variable; NaN where a run did not come. Outputs have no time. facts : of
+    every run, and what they are.
+
+    Times are those of the frames that the runs have at their output interval; a last frame beside it is left to `end_time`.
+    """
+    times = _common_times(runs)
+    data: dict[str, Any] = {name: _fact(variants, runs, name, text) for name, text in facts.items()}
+    coords: dict[str, Any] = {
+        name: (dim, list(values), {"long_name": f"value of {name}"})
+        for name, (dim, values) in variants.coordinates.items()
+    }
+    if len(times):
+        coords["time"] = ("time", times, {"units": "s", "long_name": "time"})
+    data |= {name: _output(variants, runs, name, each) for name, each in outputs.items()}
+    kept: dict[str, VariantRun] = {}
+    for run in runs:
+        for name in run.saved:
+            kept.setdefault(name, run)
+    for name, first in kept.items():
+        one = first.saved[name]
+        coords |= {dim: (dim, list(names)) for dim, names in one.names.items()}
+        dims = (*variants.dimensions, "time", *one.dims)
+        values = np.full((len(runs), len(times), *one.values.shape[1:]), np.nan)
+        for k, run in enumerate(runs):
+            if name in run.saved:
+                _place(values[k], times, run.time, run.saved[name].values)
+        shaped = values.reshape((*variants.shape, *values.shape[1:]))
+        data[name] = (dims, shaped, {"units": one.units, "long_name": one.long_name})
+    return xarray.Dataset(data, coords=coords, attrs=dict(attributes))
+
+
+def _fact(variants: Variants, runs: Sequence[VariantRun], name: str, text: str) -> tuple[Any, ...]:
+    values = np.array([getattr(run, name) for run in runs])
+    units = {"units": UNITS[name]} if name in UNITS else {}
+    return variants.dimensions, values.reshape(variants.shape), {"long_name": text, **units}
+
+
+def _output(variants: Variants, runs: Sequence[VariantRun], name: str, output: Output) -> tuple[Any, ...]:
+    """The numbers of an output, with the limits that it has; NaN where there is none."""
+    numbers = [run.outputs.get(name) for run in runs]
+    values = np.array([np.nan if each is None else each.value for each in numbers])
+    facts: dict[str, Any] = {"units": next((each.units for each in numbers if each is not None), "")}
+    facts["long_name"] = " ".join(filter(None, (output.type, getattr(output, "of", ""))))
+    facts |= {
+        key: limit for key, limit in zip(("at_least", "at_most"), output.limits, strict=True) if limit is not None
+    }
+    return variants.dimensions, values.reshape(variants.shape), facts
+
+
+def _common_times(runs: Sequence[VariantRun]) -> NDArray[np.float64]:
+    """All times of frames, those of one moment once; a last one at which only an event or a failure ended is left out."""
+    rows = [run.time for run in runs if len(run.time)]
+    if not rows:
+        return np.zeros(0)
+    longest = max(rows, key=len)
+    near = 1e-9 * max(float(longest[-1]), 1e-300)
+    every = np.unique(np.concatenate([row[:-1] if row is not longest and len(row) > 1 else row for row in rows]))
+    new = np.append(True, np.diff(every) > near)
+    return every[new]
+
+
+def _place(out: NDArray[np.float64], times: NDArray[np.float64], own: NDArray[np.float64], values: Any) -> None:
+    """Put frames at their `own` times into `out`, at the nearest of `times`."""
+    near = 1e-9 * max(float(times[-1]), 1e-300)
+    at = np.clip(np.searchsorted(times, own - near), 0, len(times) - 1)
+    fits = np.abs(times[at] - own) <= near
+    out[at[fits]] = values[fits]

@@ -93,9 +93,8 @@ def of_points(position: Array, displacement: Array, weight) -> Invariants:
     xx = position.T @ mx
     phi = np.stack([each.sum(axis=0) for each in weighed])
     xphi = np.stack([position.T @ each for each in weighed], axis=1)  # [a, b, j] Σ m x_a φ_bj
-    phiphi = np.stack(
-        [[displacement[:, a].T @ each for each in weighed] for a in range(3)]
-    )  # [a, b, j, k] Σ m φ_aj φ_bk
+    # [a, b, j, k] Σ m φ_aj φ_bk
+    phiphi = np.stack([[displacement[:, a].T @ each for each in weighed] for a in range(3)])
     return _assembled(total, mx.sum(axis=0), phi, xx, xphi, phiphi)
 
 

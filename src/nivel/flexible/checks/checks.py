@@ -26,10 +26,8 @@ ONE_POINT: Final = (
     "Elements with strain at their middle alone (C3D8R, and S4R, which is one layer of these) bend without any: take S4 or S8R, C3D8I or "
     "C3D20R, in their place"
 )
-DIGITS, FEW_DIGITS = (
-    1e-4,
-    0.02,
-)  # energy of rigid motions by that of the lowest mode: from where it is told, and refused
+# energy of rigid motions by that of the lowest mode: from where it is told, and refused
+DIGITS, FEW_DIGITS = (1e-4, 0.02)
 SPREAD: Final = 8.0  # times this the energy of a mode was wrong, of thin plates as CalculiX writes them
 THIN: Final = 1e-5  # frequency of rigid motions by that of a wave along the body, above which digits are missing
 SHOWN: Final = 6  # nodes that a message names

@@ -104,9 +104,8 @@ def _card(text: str, line: Line) -> Card:
         options[_squeezed(name)] = value.strip().strip('"')
     squeezed = _squeezed(first[1:])
     plain = " ".join(first[1:].upper().split())
-    keyword = CARDS.get(squeezed) or CARDS.get(
-        squeezed.removesuffix("S"), plain
-    )  # CalculiX looks at the begin of a keyword
+    # CalculiX looks at the begin of a keyword
+    keyword = CARDS.get(squeezed) or CARDS.get(squeezed.removesuffix("S"), plain)
     if problem := refusal(keyword):
         raise FormatError(problem, line)
     return Card(keyword, options, line)
@@ -178,9 +177,8 @@ REFUSED: Final = {
         "nodes and elements are made by rules; write them one by one",
     ),
 }
-CARDS: Final = {
-    name.replace(" ", ""): name for name in (*USED, *WITHOUT_INFLUENCE, *NO_STRESS, *REFUSED)
-}  # names by how CalculiX reads them: without blanks
+# names by how CalculiX reads them: without blanks
+CARDS: Final = {name.replace(" ", ""): name for name in (*USED, *WITHOUT_INFLUENCE, *NO_STRESS, *REFUSED)}
 
 
 def refusal(keyword: str) -> str:

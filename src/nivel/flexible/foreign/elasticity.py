@@ -26,9 +26,8 @@ WORDS: Final = {
     "ANISOTROPIC": "ANISO",
     "ENGINEERINGCONSTANTS": "ENGINEERING CONSTANTS",
 }
-NORMAL: Final = (
-    0.999999999536  # cosine of the angle to its normal, below which an axis cannot be projected onto a shell
-)
+# cosine of the angle to its normal, below which an axis cannot be projected onto a shell
+NORMAL: Final = 0.999999999536
 PACKED: Final = (0, 1, 2, 3, 5, 4)  # xx, yy, zz, xy, zx, yz of a deck among xx, yy, zz, xy, yz, zx
 
 

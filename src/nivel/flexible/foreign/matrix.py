@@ -57,11 +57,8 @@ def from_triplets(
         triangle = not np.isin(rows[off] * size + columns[off], columns[off] * size + rows[off]).any()
     if triangle:
         off = rows != columns
-        rows, columns, values = (
-            np.concatenate([rows, columns[off]]),
-            np.concatenate([columns, rows[off]]),
-            np.concatenate([values, values[off]]),
-        )
+        values = np.concatenate([values, values[off]])
+        rows, columns = np.concatenate([rows, columns[off]]), np.concatenate([columns, rows[off]])
     return sp.csc_array((values, (rows, columns)), shape=(size, size))
 
 

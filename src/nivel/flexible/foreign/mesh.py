@@ -87,17 +87,10 @@ SOLIDS: Final = {
     "C3D20": 20,
     "C3D20R": 20,
 }  # types of elements whose stress can be recovered, with their number of nodes
-SPRINGS: Final = frozenset(
-    {"SPRINGA", "SPRING1", "SPRING2", "GAPUNI"}
-)  # types of elements that store energy without a stress
-POINTS: Final = SPRINGS | {
-    "MASS",
-    "DASHPOTA",
-    "DASHPOT1",
-    "DASHPOT2",
-    "DCOUP3D",
-    "ROTARYI",
-}  # types beside which stress is known
+# types of elements that store energy without a stress
+SPRINGS: Final = frozenset({"SPRINGA", "SPRING1", "SPRING2", "GAPUNI"})
+# types beside which stress is known
+POINTS: Final = SPRINGS | {"MASS", "DASHPOTA", "DASHPOT1", "DASHPOT2", "DCOUP3D", "ROTARYI"}
 
 
 class RigidGroup(NamedTuple):

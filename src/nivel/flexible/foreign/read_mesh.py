@@ -25,14 +25,8 @@ from nivel.flexible.foreign.mesh import (
 )
 from nivel.flexible.foreign.nastran import read_grids, table
 
-STORING: Final = (
-    "SPRING",
-    "GAP",
-    "CONTACT PAIR",
-    "CONTACT",
-    "CONNECTOR SECTION",
-    "FASTENER",
-)  # cards of what stores energy
+# cards of what stores energy
+STORING: Final = ("SPRING", "GAP", "CONTACT PAIR", "CONTACT", "CONNECTOR SECTION", "FASTENER")
 AT_REST: Final = ("STRESS", "PLASTICSTRAIN", "SOLUTION")  # initial conditions that are stress or make one
 
 

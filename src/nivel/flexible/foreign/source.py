@@ -82,9 +82,8 @@ def followers(
         rows += [{int(b): 0.5 - offset, int(t): 0.5 + offset} for b, t in zip(bottom, top, strict=True)]
         ends = (place[layers[0]], place[layers[-1]])
         stands_for[len(position) + len(numbers)] = ends
-        stands_for |= {
-            place[middle]: ends for middle in layers[1:-1]
-        }  # free, so that the thickness can change as a plate bends
+        # free, so that the thickness can change as a plate bends
+        stands_for |= {place[middle]: ends for middle in layers[1:-1]}
         numbers.append(node)
     at = {number: k for k, number in enumerate(shells.mesh.numbers.tolist())}
     stretch_row = {node: k for k, (node, axis) in enumerate(labels) if axis == 4}

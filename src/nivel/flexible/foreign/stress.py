@@ -20,10 +20,8 @@ TOLD: Final = {
     C3D20: "stress of elements C3D20 is that of 2 × 2 × 2 points, where it is most accurate; CalculiX takes 3 × 3 × 3 points",
     "C3D6": "stress of elements C3D6 is that of their two points; CalculiX 2.20 exchanges nodes above and below in its result file",
 }  # where nodal stress is another one than in a result file of CalculiX
-SAME_ENERGY, LIKE_ENERGY = (
-    0.01,
-    0.3,
-)  # share by which energies of uniform strains may differ, and of C3D20 beside knots, which disturb them
+# share by which energies of uniform strains may differ, and of C3D20 beside knots, which disturb them
+SAME_ENERGY, LIKE_ENERGY = (0.01, 0.3)
 
 
 class UnknownStressError(Exception):

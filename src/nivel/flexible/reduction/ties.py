@@ -109,9 +109,8 @@ def _tied(
     position = np.concatenate([model.position, np.array(references)])
     added = numbered(np.ones((len(references), 6), dtype=bool)) + old
     freedoms = np.concatenate([model.freedoms, added])
-    within = np.where(
-        freedoms >= old, freedoms - old + count, freedoms
-    )  # rows: the independent ones, then those of the references
+    # rows: the independent ones, then those of the references
+    within = np.where(freedoms >= old, freedoms - old + count, freedoms)
     dependent: dict[int, tuple[Whole, Array]] = {}  # row → columns and values
     for each in attachments:
         if not len(each.tied):

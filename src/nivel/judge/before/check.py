@@ -112,10 +112,8 @@ class Check:
     cut: tuple[str, ...]  # joints that stay constraints in relative coordinates
     settings: RunSettings
     reason: str  # for its integrator, where nobody asked for it
-    unsettled: tuple[str, str] = (
-        "",
-        "",
-    )  # why no equilibrium was found to start from, and what to try: then it is shown as drawn
+    # why no equilibrium was found to start from, and what to try: then it is shown as drawn
+    unsettled: tuple[str, str] = ("", "")
     name_notes: tuple[str, ...] = ()  # on parameters that have the name of a unit or of a constant
     remarks: tuple[str, ...] = ()  # on values that are far from those of real machines
 

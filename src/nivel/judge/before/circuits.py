@@ -189,9 +189,8 @@ def _leads_nowhere(circuit: Circuit, each: Component) -> Said:
 def _against_relief(circuit: Circuit, each: Component) -> Said:
     if isinstance(each, Pump | FlowSource) and each.ports["B"] in circuit.settings:
         relief, setting = circuit.settings[each.ports["B"]]
-        given = (
-            0.0 if isinstance(each, Pump) and each.displacement > LARGEST else _flow_of(each)
-        )  # the pump itself is remarked on
+        # the pump itself is remarked on
+        given = 0.0 if isinstance(each, Pump) and each.displacement > LARGEST else _flow_of(each)
         passes = relief.conductance * math.sqrt(setting + relief.opening_range)
         if given > 1.05 * passes > 0.0:
             rated = f"flow: {math.ceil(given / LITRE_PER_MINUTE * 1.2)} L/min, pressure_drop: {setting / BAR:.4g} bar"

@@ -259,10 +259,8 @@ def shared_mass(machine: MachineRecord, formulation: str, coordinates: str) -> I
     if not machine.shares_mass:
         return
     names = ", ".join(beam.name for beam in machine.beams if beam.shares_mass)
-    why, integrator = (
-        f"does not go with the consistent mass of {names}: take {{}}, or {_lumped(machine)}",
-        machine.simulation.integrator,
-    )
+    why = f"does not go with the consistent mass of {names}: take {{}}, or {_lumped(machine)}"
+    integrator = machine.simulation.integrator
     if coordinates not in ("absolute", "relative"):
         yield Fault.at("simulation.coordinates", f"'{coordinates}' {why.format('absolute or relative')}")
     if formulation != "newton-euler":

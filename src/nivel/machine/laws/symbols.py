@@ -31,18 +31,8 @@ POINT_QUANTITIES: Final = ("x", "y", "z", "vx", "vy", "vz")
 STATE_QUANTITY: Final = "value"
 TURN_QUANTITIES: Final = ("wx", "wy", "wz")
 SENSOR_QUANTITIES: Final = {"distance": ("distance", "rate"), "angle": ("angle", "rate")}
-VARYING_KEYS: Final = (
-    "vector",
-    "law",
-    "magnitude",
-    "effort",
-    "speed",
-    "target",
-    "value",
-    "when",
-    "rate",
-    "update",
-)  # keys of what may use symbols
+# keys of what may use symbols
+VARYING_KEYS: Final = ("vector", "law", "magnitude", "effort", "speed", "target", "value", "when", "rate", "update")
 
 
 @dataclass(frozen=True)

@@ -51,14 +51,8 @@ RESERVED: Final = frozenset({TIME, LOOKUP, *LOGICAL, *CONSTANTS, *FUNCTIONS})
 FREE_CONSTANTS: Final = frozenset({"e"})  # names that parameters and arguments of functions may take over
 NOT_FOR_PARAMETERS: Final = RESERVED - FREE_CONSTANTS
 PLACE: Final = ("x", "y")  # on ground
-LOCAL_SYMBOLS: Final = (
-    "length",
-    "angle",
-    "value",
-    "depth",
-    "rate",
-    *PLACE,
-)  # where a law may use them they are signals
+# where a law may use them they are signals
+LOCAL_SYMBOLS: Final = ("length", "angle", "value", "depth", "rate", *PLACE)
 
 
 def given(value: SupportsFloat) -> float:

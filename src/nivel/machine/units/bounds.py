@@ -129,13 +129,9 @@ def _bounds_of_curve(curve: Lookup, low: Array, high: Array) -> Interval:
         for c in piece[::-1]:
             lower, upper = products(bounds, part)
             bounds = lower + c, upper + c
-        least, largest = (
-            np.where(inside, np.minimum(least, bounds[0]), least),
-            np.where(inside, np.maximum(largest, bounds[1]), largest),
-        )
+        least = np.where(inside, np.minimum(least, bounds[0]), least)
+        largest = np.where(inside, np.maximum(largest, bounds[1]), largest)
     for beyond, value in ((low < points[0], before), (high >= points[-1], behind)):
-        least, largest = (
-            np.where(beyond, np.minimum(least, value), least),
-            np.where(beyond, np.maximum(largest, value), largest),
-        )
+        least = np.where(beyond, np.minimum(least, value), least)
+        largest = np.where(beyond, np.maximum(largest, value), largest)
     return least, largest

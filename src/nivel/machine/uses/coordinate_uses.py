@@ -19,13 +19,8 @@ from nivel.machine.uses.coordinate_reference import Kind, UnknownCoordinateError
 
 Faults = Iterator[tuple[Place, str]]
 
-WITH_COORDINATE: Final = (
-    "couplings",
-    "drivers",
-    "forces",
-    "hydraulics",
-    "sensors",
-)  # sections of elements that may have a `coordinate`
+# sections of elements that may have a `coordinate`
+WITH_COORDINATE: Final = ("couplings", "drivers", "forces", "hydraulics", "sensors")
 
 # of each type of coupling the key of its references, and the kinds of coordinate that they need
 _COUPLED: Final[dict[str, tuple[str, tuple[Kind, ...]]]] = {

@@ -38,9 +38,8 @@ FREQUENCY: Final = "frequency"
 POWER: Final = re.compile(r"([A-Za-z°%]+)(?:\^(\d+))?")
 SHOWN: Final = 400  # frequencies of a band at which a density is given
 ACCURACY: Final = 1e-10  # of mean squares over a band, as a share
-SEEN: Final = (
-    1e-9  # share of the largest residue below which an input does not move a vibration, or an output does not see it
-)
+# share of the largest residue below which an input does not move a vibration, or an output does not see it
+SEEN: Final = 1e-9
 SAMPLES: Final = 50  # of a period of the oscillators of a shock response spectrum
 ITERATIONS: Final = 6  # each leaves the share of the interval by which rates change of the error before
 OVERLAP: Final = 8  # windows of a waterfall that overlap
@@ -274,9 +273,8 @@ def shock_response_spectrum(
         discrete: Any = scipy.signal.cont2discrete(oscillator, step, method="foh")
         numerator, denominator = scipy.signal.ss2tf(*discrete[:4])
         base = np.append(_uniform(of, step), np.zeros(int(np.ceil(1.0 / (f * step))) + 1))
-        start = (
-            scipy.signal.lfilter_zi(numerator.ravel(), denominator) * base[0]
-        )  # at rest on a base that moves evenly before
+        # at rest on a base that moves evenly before
+        start = scipy.signal.lfilter_zi(numerator.ravel(), denominator) * base[0]
         response = np.abs(scipy.signal.lfilter(numerator.ravel(), denominator, base, zi=start)[0])
         out.append(_top(response))
     coords = {"frequency": ("frequency", np.asarray(frequencies, dtype=float), {"units": "Hz"})}

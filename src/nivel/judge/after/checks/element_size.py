@@ -20,9 +20,8 @@ from nivel.results.trust import Item, number
 Array = NDArray[np.float64]
 SMALL: Final = 0.1  # of the largest motion: what moves by less is compared with that
 LEAST_MOTION: Final = 1e-5  # of the size, or of a radian: what moves by less is compared with that
-LEAST_REACTION: Final = (
-    1e-3  # of the largest torque, over the size: forces below are compared with that; torques likewise
-)
+# of the largest torque, over the size: forces below are compared with that; torques likewise
+LEAST_REACTION: Final = 1e-3
 ROUND_OFF: Final = 1e-13  # of the stiffness EA: reactions below are none
 
 

@@ -191,10 +191,8 @@ def neglected(machine: MachineRecord) -> tuple[Neglected, ...]:
 
 
 Array = NDArray[np.float64]
-PERIODS, SAMPLES = (
-    32,
-    8,
-)  # in a window of the frequency at which the modes end; samples in one of four times that frequency
+# in a window of the frequency at which the modes end; samples in one of four times that frequency
+PERIODS, SAMPLES = (32, 8)
 MOST_WINDOWS = 200
 LEAST_DAMPING = 0.005  # of critical: structures have no less
 LINE = 3.0  # times what surrounds it: above that it is a line

@@ -35,9 +35,8 @@ Array = NDArray[np.float64]
 MOST_FRAMES = 4000  # that are looked at, at most
 STRAIGHT = 1e-4  # of its size: a body that bends by less is compared with one that bends by as much
 FITS = 1e-3  # misfit, as a share, with which the forces at one interface explain the motion of a body
-NEAR_LEFT = (
-    0.8  # of the lowest frequency that is left out: vibrations above it may be of modes that the body does not have
-)
+# of the lowest frequency that is left out: vibrations above it may be of modes that the body does not have
+NEAR_LEFT = 0.8
 LEAST_PART = 1e-2  # of the energy of a vibration: a body with less hardly takes part in it
 DAMPED_MOST = 0.99  # of critical
 NEAR = 1e-3  # of the size of a body: an interface so near to a marker is the one it is at

@@ -293,11 +293,8 @@ def _of_points(result: Readable, bodies: list[ModalBody]) -> dict[str, Array]:
     of_bodies = {name: np.zeros(len(result.coordinates["body"])) for name in FRAME_MOTIONS}
     of_modes = {name: np.zeros(len(result.coordinates["mode"])) for name in MODAL}
     for body in bodies:
-        its, k, own = (
-            point_ranges(result, body),
-            result.coordinates["body"].index(body.name),
-            slice(body.first, body.last),
-        )
+        its, k = point_ranges(result, body), result.coordinates["body"].index(body.name)
+        own = slice(body.first, body.last)
         for name, turns in FRAME_MOTIONS.items():
             moved = its.acceleration if name.endswith("acceleration") else its.speed
             of_bodies[name][k] = moved / body.extent if turns and body.extent else moved

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from contextlib import contextmanager, nullcontext
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import replace
 from functools import cached_property, partial
 from math import pi
@@ -119,25 +119,16 @@ class Machine(Model):
         surroundings: Sequence[Any] = (),
         left_out: Sequence[str] = (),
     ) -> None:
-        sections = {
-            "bodies": bodies,
-            "beams": beams,
-            "markers": markers,
-            "joints": joints,
-            "couplings": couplings,
-            "drivers": drivers,
-            "forces": forces,
-            "fluids": fluids,
-            "hydraulics": hydraulics,
-            "inputs": inputs,
-            "states": states,
-            "control": control,
-            "sensors": sensors,
-            "events": events,
-            "surroundings": surroundings,
-            "left_out": left_out,
+        given: dict[str, Any] = {"surroundings": tuple(surroundings), "left_out": tuple(left_out)}
+        given |= {"bodies": tuple(bodies), "beams": tuple(beams), "markers": tuple(markers), "joints": tuple(joints)}
+        given |= {"couplings": tuple(couplings), "drivers": tuple(drivers), "forces": tuple(forces)}
+        given |= {"fluids": tuple(fluids), "hydraulics": tuple(hydraulics), "inputs": tuple(inputs)}
+        given |= {
+            "states": tuple(states),
+            "control": tuple(control),
+            "sensors": tuple(sensors),
+            "events": tuple(events),
         }
-        given: dict[str, Any] = {section: tuple(records) for section, records in sections.items()}
         given |= {} if assembly is None else {"assembly": assembly}
         given |= {} if simulation is None else {"simulation": simulation}
         self.record = MachineRecord(name=name, description=description, gravity=gravity, **given)  # type: ignore[arg-type]
@@ -147,10 +138,7 @@ class Machine(Model):
     def check(self, *, listener: Listener | None = None) -> Check:
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
         plan = self._plan(self.origin.settings_outside)
-        nivel.analysis.plan.compilation.build(
-            nivel.analysis.plan.compilation.preparation_entries(plan.methods), listener
-        )
-        with self._faults_in_file():
+        with self._compiled(nivel.analysis.plan.compilation.preparation_entries(plan.methods), listener):
             place = partial(nivel.system.joint_frames.as_placed, self.record)
             ropes = [finding.fault for finding in nivel.judge.before.unusual.stretched_ropes(self.record, place)]
             remarks = (*self.remarks, *self.origin.placed(ropes))
@@ -163,8 +151,7 @@ class Machine(Model):
         self, about: str = "ground", bodies: Sequence[str] | str = (), *, listener: Listener | None = None
     ) -> MassProperties:
         """Mass, centre of mass and inertia of these bodies, or of all, as assembled, about a marker or body and along its axes."""
-        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.assembly_entries(self.record), listener)
-        with self._faults_in_file():
+        with self._assembled(listener):
             return nivel.analysis.assembly.mass.mass_properties(
                 self.record, about, (bodies,) if isinstance(bodies, str) else tuple(bodies)
             )
@@ -172,8 +159,7 @@ class Machine(Model):
     @checked_arguments
     def posed(self, *, listener: Listener | None = None) -> Posing:
         """The assembled machine, to be moved by hand. Raises ModelError where it cannot be assembled."""
-        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.assembly_entries(self.record), listener)
-        with self._faults_in_file():
+        with self._assembled(listener):
             return nivel.analysis.interactive.posing.Posing(self.record)
 
     @checked_arguments
@@ -301,8 +287,7 @@ class Machine(Model):
         Raises ModelError where steps are not fixed, a Python law takes part, or the folder is there already.
         """
         plan = self._plan({}, stepwise=True)
-        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.run_entries(plan), listener)
-        with self._faults_in_file():
+        with self._compiled(nivel.analysis.plan.compilation.run_entries(plan), listener):
             return nivel.c_library.writer.write_c_library(
                 plan, Path(folder), (select,) if isinstance(select, str) else select, platform
             )
@@ -335,8 +320,7 @@ class Machine(Model):
         self._refuse_target(path, force)
         given = nivel.analysis.gradients.outputs.parameters_of(self, paths, "an FMU") if paths else ()
         plan = self._plan({}, stepwise=True)
-        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.run_entries(plan), listener)
-        with self._faults_in_file():
+        with self._compiled(nivel.analysis.plan.compilation.run_entries(plan), listener):
             nominal = nivel.c_library.exported.export(plan, "an FMU", chosen)
             # with other values it keeps its method, which may follow from them
             same = self.with_settings({"integrator": nominal.plan.settings.integrator}) if given else self
@@ -390,9 +374,7 @@ class Machine(Model):
         given = _given(settings)
         chosen = self.with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
-        nivel.analysis.plan.compilation.build(_entries_of(plan, chosen.record), listener)
-        # what follows takes longer to import
-        with chosen._faults_in_file():
+        with chosen._compiled(_entries_of(plan, chosen.record), listener):  # what follows takes longer to import
             return nivel.analysis.gradients.gradient.gradient(
                 chosen,
                 plan,
@@ -500,7 +482,7 @@ class Machine(Model):
             chosen,
             rows,
             names,
-            threads=threads or nivel.native.workers.processors(),
+            threads=threads,
             listener=listener or Listener(),
         )
 
@@ -544,11 +526,10 @@ class Machine(Model):
         SolveError where that is because runs fail.
         """
         chosen = self._ready(settings, listener, analysis)
-        given = {name: (each[0], each[1]) if len(each) == 2 else each for name, each in (limits or {}).items()}
         return nivel.analysis.optimise.optimise.optimise(
             chosen,
             nivel.analysis.optimise.evaluations.box_of(chosen, parameters),
-            nivel.analysis.optimise.optimise.Aim(objective, maximise, outputs, given),  # type: ignore[arg-type]
+            nivel.analysis.optimise.optimise.Aim(objective, maximise, outputs, limits),
             method=method,
             starts=starts,
             seed=seed,
@@ -557,7 +538,7 @@ class Machine(Model):
             computation=nivel.analysis.optimise.evaluations.Computation(
                 analysis,
                 analysis_settings or {},
-                threads or nivel.native.workers.processors(),
+                threads,
                 time_limit,
                 chosen._exact_outputs([objective, *(outputs or {}).values()]) if exact_slopes else None,
                 journal,
@@ -604,16 +585,15 @@ class Machine(Model):
         """
         chosen = self._ready(settings, listener)
         course = nivel.analysis.optimise.inputs.course_of(chosen.record, inputs, float(chosen.simulation.duration))
-        given = {name: (each[0], each[1]) if len(each) == 2 else each for name, each in (limits or {}).items()}
         machine = Machine.from_record(course.record)
         found = nivel.analysis.optimise.optimise.optimise(
             machine,
             course.box,
-            nivel.analysis.optimise.optimise.Aim(objective, maximise, outputs, given),  # type: ignore[arg-type]
+            nivel.analysis.optimise.optimise.Aim(objective, maximise, outputs, limits),
             most=iterations,
             tolerance=accuracy,
             computation=nivel.analysis.optimise.evaluations.Computation(
-                threads=threads or nivel.native.workers.processors(),
+                threads=threads,
                 exact=machine._exact_outputs([objective, *(outputs or {}).values()]) if exact_slopes else None,
             ),
             listener=listener,
@@ -664,11 +644,7 @@ class Machine(Model):
             most=iterations,
             tolerance=accuracy,
             computation=nivel.analysis.optimise.evaluations.Computation(
-                analysis,
-                analysis_settings or {},
-                threads or nivel.native.workers.processors(),
-                time_limit,
-                journal=journal,
+                analysis, analysis_settings or {}, threads, time_limit, journal=journal
             ),
             listener=listener,
         )
@@ -714,11 +690,8 @@ class Machine(Model):
         with self._faults_in_file():
             methods = nivel.analysis.plan.plan.methods_of(neutral, "newton-euler", chosen)
         self._refuse_target(out, force)
-        compile_seconds = nivel.analysis.plan.compilation.build(
-            nivel.analysis.plan.compilation.statics_entries(methods), listener
-        )
-        # what follows takes longer to import
-        with self._faults_in_file():
+        entries = nivel.analysis.plan.compilation.statics_entries(methods)
+        with self._compiled(entries, listener) as compile_seconds:  # what follows takes longer to import
             return nivel.analysis.statics.run.statics(
                 self.record,
                 asked,
@@ -756,11 +729,8 @@ class Machine(Model):
             plain, chosen = nivel.analysis.plan.equations_only.neutral(machine, asked.coordinates)
             methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", chosen)
         self._refuse_target(out, force)
-        compile_seconds = nivel.analysis.plan.compilation.build(
-            nivel.analysis.plan.compilation.kinematics_entries(methods), listener
-        )
-        # what follows takes longer to import
-        with self._faults_in_file():
+        entries = nivel.analysis.plan.compilation.kinematics_entries(methods)
+        with self._compiled(entries, listener) as compile_seconds:  # what follows takes longer to import
             return nivel.analysis.kinematics.run.kinematics(
                 machine,
                 methods,
@@ -790,8 +760,7 @@ class Machine(Model):
             self.record,
             {"drive": coordinate, "end": 0.0, "positions": most, "coordinates": coordinates},
         )
-        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.assembly_entries(self.record), listener)
-        with self._faults_in_file():
+        with self._assembled(listener):
             name = settings.drive
             start, unit, size = nivel.analysis.kinematics.drive.present_value(self.record, name)
         return nivel.analysis.kinematics.drive.range_of_motion(
@@ -819,8 +788,7 @@ class Machine(Model):
         name = nivel.machine.settings.kinematics.kinematics_settings(
             self.record, {"drive": coordinate, "end": 0.0}
         ).drive
-        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.assembly_entries(self.record), listener)
-        with self._faults_in_file():
+        with self._assembled(listener):
             return nivel.analysis.kinematics.continuation.configuration_curve(self.record, name)
 
     @checked_arguments
@@ -862,7 +830,6 @@ class Machine(Model):
                 nivel.analysis.inverse.run.without_actuators(record, wanted), "absolute"
             )
             methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", "absolute")
-        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.linear_entries(methods), listener)
         if motion is None:
             followed = Machine.from_record(record, self.origin).kinematics(positions=positions, listener=listener)
         else:
@@ -870,7 +837,7 @@ class Machine(Model):
             if not isinstance(followed, nivel.results.result.Result):
                 message = f"a result or the name of its file was expected, got {type(motion).__name__}"
                 raise ModelError(Fault.at("inverse.motion", message))
-        with self._faults_in_file():
+        with self._compiled(nivel.analysis.plan.compilation.linear_entries(methods), listener):
             found = nivel.analysis.inverse.run.inverse(methods, wanted, followed, listener=listener)
         replaced = [each for each in record.drivers if motion is not None and each.name not in wanted.hold]
         return nivel.analysis.inverse.run.with_trust(found, record.drivers, followed, replaced)
@@ -889,8 +856,7 @@ class Machine(Model):
             refuse(each for each in faults if each.path.partition(".")[0] not in ("control", "states"))
             plain, chosen = nivel.analysis.plan.equations_only.neutral(record, coordinates or "auto")
             methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", chosen)
-        nivel.analysis.plan.compilation.build(nivel.analysis.plan.compilation.linear_entries(methods), listener)
-        with self._faults_in_file():
+        with self._compiled(nivel.analysis.plan.compilation.linear_entries(methods), listener):
             return nivel.analysis.inverse.mechanics.Mechanics(
                 plain, nivel.analysis.run.prepared_state.at_start(methods), left_out
             )
@@ -997,9 +963,7 @@ class Machine(Model):
         if asked.time > 0.0:
             run = self.with_settings({"duration": asked.time})._plan(())
             entries += nivel.analysis.plan.compilation.run_entries(run)
-        nivel.analysis.plan.compilation.build(entries, listener)
-        # what follows takes longer to import
-        with self._faults_in_file():
+        with self._compiled(entries, listener):  # what follows takes longer to import
             inputs = replace(inputs, machine=plain)
             return nivel.analysis.linearise.linearise.linearise(
                 inputs, methods, asked, run=run, source=self.origin.source, listener=listener
@@ -1058,6 +1022,17 @@ class Machine(Model):
             yield
         except ModelError as error:
             raise ModelError(self.origin.placed(error.faults)) from error
+
+    @contextmanager
+    def _compiled(self, entries: Sequence[Entry], listener: Listener | None) -> Iterator[float]:
+        """With the machine code of these entries, and faults at their lines. It gives the wall time [s] that this took."""
+        took = nivel.analysis.plan.compilation.build(entries, listener)
+        with self._faults_in_file():
+            yield took
+
+    def _assembled(self, listener: Listener | None) -> AbstractContextManager[float]:
+        """With what it takes to assemble the machine."""
+        return self._compiled(nivel.analysis.plan.compilation.assembly_entries(self.record), listener)
 
     @checked_arguments
     def with_inputs(self, inputs: Mapping[str, float | str | PathLike[str] | Table]) -> Machine:

@@ -18,7 +18,7 @@ from nivel.analysis.progress.journal import Journal, packed, unpacked
 from nivel.analysis.sweep.outputs import Found
 from nivel.analysis.sweep.variant_runs import AnalysedVariants, VariantRuns, formulas_for
 from nivel.errors import Fault, ModelError, NivelError, SolveError, refuse
-from nivel.lazy import dataclass, scipy
+from nivel.lazy import dataclass, nivel, scipy
 from nivel.machine.study import ANALYSES
 from nivel.model import Model
 from nivel.words.wording import shown, unknown_word
@@ -105,13 +105,14 @@ def _present(machine: Model, path: str, low: float, high: float) -> float:
 
 @dataclass(frozen=True)
 class Computation:
-    """What is computed of each variant. analysis : `run`, or one with its settings. threads : at once, of runs whose numbers are patched.
+    """What is computed of each variant. analysis : `run`, or one with its settings. threads : at once, of runs whose numbers are patched;
+    None: as many as there are processors.
     time_limit [s] : of each run. exact : outputs with their slopes from one run; None: differences. journal : keeps every variant, and has
     those of an interrupted search, which are not computed again."""
 
     analysis: str = "run"
     settings: Mapping[str, Any] = field(default_factory=dict)
-    threads: int = 1
+    threads: int | None = 1
     time_limit: float | None = None
     exact: Exact | None = None
     journal: Journal | None = None
@@ -174,7 +175,7 @@ class Evaluations:
             box.values(z) for z in (np.zeros(len(box.low)), np.ones(len(box.low)), *rng.random((SAMPLED, len(box.low))))
         ]
         patches, self.prepared_because = formulas_for(machine, rows)
-        self._threads = of.threads if patches is not None else 1
+        self._threads = (of.threads or nivel.native.workers.processors()) if patches is not None else 1
         for _ in range(self._threads):
             self._runs.put(VariantRuns(machine, patches, of.time_limit))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from numbers import Real
 from time import perf_counter
 from typing import Any
@@ -25,7 +25,7 @@ from nivel.model import Model
 from nivel.words.wording import shown, unknown_word
 
 Array = NDArray[np.float64]
-Limits = Mapping[str, tuple[float | None, float | None]]
+Limits = Mapping[str, Sequence[float | None]]
 
 
 @dataclass(frozen=True)
@@ -166,7 +166,8 @@ def _check_events(machine: Model, said: Mapping[str, Said]) -> None:
 
 def _checked_limits(limits: Limits, said: Mapping[str, Said], method: str) -> dict[str, tuple[float, float]]:
     out, faults = {}, []
-    for name, given in limits.items():
+    for name, each in limits.items():
+        given = (each[0], each[1]) if len(each) == 2 else each
         if name not in said:
             faults.append(Fault.at("limits", unknown_word(name, list(said), "output")))
             continue

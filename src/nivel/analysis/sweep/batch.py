@@ -19,6 +19,7 @@ from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, collected, kept_of
 from nivel.analysis.sweep.variant_runs import WORTH_FORMULAS, Ran, Values, VariantRuns, formulas_for
 from nivel.analysis.sweep.variants import ROW, Variants
 from nivel.errors import ModelError
+from nivel.lazy import nivel
 from nivel.model import Model
 from nivel.results.result import Result
 
@@ -32,7 +33,7 @@ FACTS: Final = {
 
 
 def run_batch(
-    base: Model, rows: Sequence[Values], save: Sequence[str], *, threads: int, listener: Listener
+    base: Model, rows: Sequence[Values], save: Sequence[str], *, threads: int | None, listener: Listener
 ) -> xarray.Dataset:
     """All variants, along the dimension `variant`. rows : values by path of each. save : names of results; none: joint coordinates and
     sensors.
@@ -47,6 +48,7 @@ def run_batch(
     for name in names:
         first.selection(name)
     patches, why = formulas_for(base, rows) if len(rows) >= WORTH_FORMULAS else (None, "there are few variants")
+    threads = threads or nivel.native.workers.processors()
     left, kept = deque(range(len(rows))), [VariantRun(NOT_RUN)] * len(rows)
     done = [0]
 

@@ -25,9 +25,8 @@ def read_mass_properties(tree: Tree, sources: Sources) -> None:
 
 def _read(tree: Tree, sources: Sources, name: str, body: dict[str, Any]) -> None:
     path = ("bodies", name, KEY)
-    found = sources.text(tree, path, body.pop(KEY))
+    found = sources.text(tree, path, body.pop(KEY), breaks=path[:2])
     if found is None:
-        tree.broken.add(path[:2])
         return
     text, file = found
     if file.endswith(".json"):
@@ -80,6 +79,5 @@ def _placed(tree: Tree, path: tuple[Any, ...], given: str) -> str:
     if not is_file(file):
         model = Path(file).with_suffix(".yaml")
         named = model if model.is_file() else "MODEL"
-        tree.report(path, f"there is no file `{file}`; `nivel reduce {named} -o {file}` makes it")
-        tree.broken.add(path[:2])
+        tree.report(path, f"there is no file `{file}`; `nivel reduce {named} -o {file}` makes it", breaks=path[:2])
     return file

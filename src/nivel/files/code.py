@@ -38,22 +38,18 @@ def _read(tree: Tree, sources: Sources, path: Path, block: dict[str, Any]) -> No
     given = block["file"]
     if not sources.allow_code:
         what = given if isinstance(given, str) else "a file"
-        tree.report((*path, "file"), f"this block runs the machine code of {what}; say --allow-code if you trust it")
-        tree.broken.add(path)
+        message = f"this block runs the machine code of {what}; say --allow-code if you trust it"
+        tree.report((*path, "file"), message, breaks=path)
         return
-    found = sources.content(tree, (*path, "file"), given)
+    found = sources.content(tree, (*path, "file"), given, breaks=path)
     if found is None:
-        tree.broken.add(path)
         return
     content, file = found
     if block["type"] == "fmu":
         _look_up(tree, path, block, content, file)
     elif not file.endswith(LIBRARIES):
-        tree.report(
-            (*path, "file"),
-            f"a shared library ({', '.join(LIBRARIES[1:])}) or a C file (.c) was expected, got `{given}`",
-        )
-        tree.broken.add(path)
+        message = f"a shared library ({', '.join(LIBRARIES[1:])}) or a C file (.c) was expected, got `{given}`"
+        tree.report((*path, "file"), message, breaks=path)
     block["file"] = str(resolved(file))
 
 
@@ -64,14 +60,12 @@ def _look_up(tree: Tree, path: Path, block: dict[str, Any], content: bytes, file
         description = nivel.files.fmu_file.read_description(content, file)
     except ModelError as error:
         for fault in error.faults:
-            tree.report((*path, "file"), f"`{file}`: {fault.message}")
-        tree.broken.add(path)
+            tree.report((*path, "file"), f"`{file}`: {fault.message}", breaks=path)
         return
     for key, message in nivel.files.fmu_file.unknown_variables(
         description, *(_variables(block, each) for each in NAMED)
     ):
-        tree.report((*path, key), message)
-        tree.broken.add(path)
+        tree.report((*path, key), message, breaks=path)
 
 
 def _variables(block: dict[str, Any], key: str) -> list[str]:
@@ -124,9 +118,8 @@ def _read_law(tree: Tree, sources: Sources, path: Path, law: dict[str, Any], wha
     if not sources.allow_code:
         _refuse(tree, (*path, "python"), what, str(given) if isinstance(given, str) else "a file")
         return
-    found = sources.text(tree, (*path, "python"), given)
+    found = sources.text(tree, (*path, "python"), given, breaks=path)
     if found is None:
-        tree.broken.add(path)
         return
     del law["python"]
     law["source"], law["file"] = found
@@ -135,8 +128,8 @@ def _read_law(tree: Tree, sources: Sources, path: Path, law: dict[str, Any], wha
 
 
 def _refuse(tree: Tree, path: Path, what: str, where: str) -> None:
-    tree.report(path, f"this {what} runs Python code from {where}; say --allow-code if you trust it")
-    tree.broken.add(path[:-1])
+    message = f"this {what} runs Python code from {where}; say --allow-code if you trust it"
+    tree.report(path, message, breaks=path[:-1])
 
 
 def _move(tree: Tree, origin: Path, target: Path) -> None:

@@ -44,8 +44,7 @@ def divide_meshes(tree: Tree) -> None:
             try:
                 shape[PARTS] = convex_parts(str(shape["surface"]), most)
             except ModelError as error:
-                tree.report((section, name, "shape", KEY), error.faults[0].message)
-                tree.broken.add((section, name))
+                tree.report((section, name, "shape", KEY), error.faults[0].message, breaks=(section, name))
                 continue
         counts[name] = len(shape[PARTS])
     if counts:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from itertools import islice
 from typing import Any, Final
 
@@ -25,6 +25,9 @@ from nivel.machine.units.tree import TIME, ExpressionError
 KEYS: Final = ("csv", "column", "units", "time", "time_units", "time_offset", "of", "interpolation")
 MOST_ROWS: Final = 20_000_000
 _HEADING: Final = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<units>[^\])]*)[\])])?\s*")
+
+
+Reader = Callable[[dict[str, Any], Any, str], Any]
 
 
 @dataclass(frozen=True)
@@ -48,24 +51,30 @@ def read_csv_tables(tree: Tree, sources: Sources) -> None:
     """Put the columns of `csv: cycle.csv` into each table, as `times` or `points` and `values`. Faults go to `tree.faults`."""
     for section in WITH_LAWS:
         for path, table in list(_tables(section_of(tree, section), (section,))):
-            binary = str(table["csv"]).lower().endswith(KINDS)
-            found = (sources.content if binary else sources.text)(tree, (*path, "csv"), table["csv"])
-            if found is None:
-                tree.broken.add(path)
-                continue
-            try:
-                _fill(table, *found)
-            except CsvError as problem:
-                if problem.line:
-                    tree.faults.append(Fault(found[1], problem.line, 1, ".".join(map(str, path)), str(problem)))
-                    tree.broken.add(path)
-                else:
-                    tree.report((*path, problem.key), str(problem))
-                    tree.broken.add(path)
+            with_table(tree, sources, path, table, _fill)
 
 
-def column_values(content: str | bytes, file: str, column: object, units: object) -> list[Any]:
-    """The numbers of one column, as of a table. Raises CsvError."""
+def with_table(tree: Tree, sources: Sources, path: Path, table: dict[str, Any], read: Reader) -> Any:
+    """What `read` makes of a mapping with `csv: FILE`, of content and name of the file; None where that has faults, which go to
+    `tree.faults`."""
+    binary = str(table["csv"]).lower().endswith(KINDS)
+    found = (sources.content if binary else sources.text)(tree, (*path, "csv"), table["csv"], breaks=path)
+    if found is None:
+        return None
+    try:
+        return read(table, *found)
+    except CsvError as problem:
+        if problem.line:
+            tree.faults.append(Fault(found[1], problem.line, 1, ".".join(map(str, path)), str(problem)))
+            tree.broken.add(path)
+        else:
+            tree.report((*path, problem.key), str(problem), breaks=path)
+        return None
+
+
+def column_values(table: Mapping[str, Any], content: str | bytes, file: str) -> list[Any]:
+    """The numbers of the `column` of a file, with the `units` of a table. Raises CsvError."""
+    column = table.get("column")
     given = _Rows(content, least=1) if isinstance(content, str) else _Measured(content, file, column)
     name = given.names[0] if column is None and len(given.names) == 1 else column
     if name is None:
@@ -74,7 +83,7 @@ def column_values(content: str | bytes, file: str, column: object, units: object
     if name not in given.names:
         raise CsvError(f"in `{file}`, {unknown_word(str(name), given.names, 'column')}", "column")
     (found,) = given.columns(str(name))
-    return _with_units(found, units, "units")
+    return _with_units(found, table.get("units"), "units")
 
 
 def numeric_columns(content: str | bytes, file: str) -> dict[str, tuple[list[float], str]]:

@@ -44,8 +44,8 @@ def spread_sets(tree: Tree) -> None:
             named = force.pop(key)
             if not isinstance(named, str) or named not in sets:
                 given = named if isinstance(named, str) else shown(named)
-                tree.report(("forces", name, key), unknown_word(given, list(sets), f"entry of `{section}`"))
-                tree.broken.add(("forces", name))
+                message = unknown_word(given, list(sets), f"entry of `{section}`")
+                tree.report(("forces", name, key), message, breaks=("forces", name))
                 continue
             spread = _spread(tree, sets[named], (section, named), name, force)
             if named in known:  # the same fault of a second force says nothing new
@@ -79,16 +79,14 @@ def read_heights(tree: Tree, sources: Sources) -> None:
         if not isinstance(field, dict) or "file" not in field or "values" in field:
             continue
         path: Path = ("forces", name, HEIGHTS, "file")
-        found = sources.content(tree, path, field["file"])
+        found = sources.content(tree, path, field["file"], breaks=path[:2])
         if found is None:
-            tree.broken.add(path[:2])
             continue
         content, _ = found
         try:
             heights = _picture(content) if content.startswith(PNG) else _rows(content)
         except NotReadError as problem:
-            tree.report(path, f"`{field['file']}`: {problem}")
-            tree.broken.add(path[:2])
+            tree.report(path, f"`{field['file']}`: {problem}", breaks=path[:2])
             continue
         field["values"] = [[_scaled(float(each), field.get("unit", 1.0)) for each in row] for row in heights]
 

@@ -50,16 +50,14 @@ def read_meshes(tree: Tree, sources: Sources) -> None:
         if not isinstance(shape, dict) or shape.get("type") != "mesh" or "file" not in shape or "surface" in shape:
             continue
         path = (*place, "file")
-        found = sources.content(tree, path, shape["file"])
+        found = sources.content(tree, path, shape["file"], breaks=path[:2])
         if found is None:
-            tree.broken.add(path[:2])
             continue
         content, file = found
         try:
             shape["surface"] = surface_text(*parse(content, file))
         except NotReadError as problem:
-            tree.report(path, f"`{file}`: {problem}")
-            tree.broken.add(path[:2])
+            tree.report(path, f"`{file}`: {problem}", breaks=path[:2])
 
 
 def _is_step(shape: dict[str, Any]) -> bool:
@@ -74,15 +72,13 @@ def _read_part(tree: Tree, place: Path, shape: dict[str, Any]) -> None:
     try:
         solids = {each.name: each for each in nivel.files.step_file.step_solids(file)}
     except ModelError as error:
-        tree.report((*place, "file"), error.faults[0].message)
-        tree.broken.add(place[:2])
+        tree.report((*place, "file"), error.faults[0].message, breaks=place[:2])
         return
     if part is None and len(solids) == 1:
         part = next(iter(solids))
     if part not in solids:
         what = "`part` is missing" if part is None else f"there is no part `{part}`"
-        tree.report((*place, "file"), f"{what}; `{file}` has {', '.join(solids)}")
-        tree.broken.add(place[:2])
+        tree.report((*place, "file"), f"{what}; `{file}` has {', '.join(solids)}", breaks=place[:2])
         return
     solid = solids[str(part)]
     shape["type"], shape["surface"] = "mesh", surface_text(*solid.surface)

@@ -43,17 +43,23 @@ def check_start(tree: Tree) -> None:
     if not {"bodies", "beams"} & tree.data.keys() and {"reduction", "frame", "solid", "matrices"} & tree.data.keys():
         message = f"this is the model of a flexible body, not a machine: `nivel reduce {tree.file}` makes the body"
         raise ModelError([*tree.faults, tree.fault((), message)])
+    take_format(tree, FORMAT)
+
+
+def take_format(tree: Tree, known: int, *, needed: bool = False) -> None:
+    """Take `format` out of the file. Raises ModelError where it is another one, which may mean something else by the rest; where it is no
+    number, only if it is `needed`."""
     if "format" not in tree.data:
-        tree.faults.append(tree.fault((), f"`format: {FORMAT}` is missing"))
+        tree.faults.append(tree.fault((), f"`format: {known}` is missing"))
         return
     given = tree.data.pop("format")
-    if given != FORMAT or isinstance(given, bool):
-        tree.faults.append(tree.fault(("format",), other_format(given, FORMAT)))
-        if isinstance(given, int | float) and not isinstance(given, bool):
-            raise ModelError(tree.faults)  # what another format means by the rest is not known
+    if given != known or isinstance(given, bool):
+        tree.faults.append(tree.fault(("format",), _other_format(given, known)))
+        if needed or (isinstance(given, int | float) and not isinstance(given, bool)):
+            raise ModelError(tree.faults)
 
 
-def other_format(given: Any, known: int) -> str:
+def _other_format(given: Any, known: int) -> str:
     """Message on a `format` that is not the known one: from the future, or not a format at all."""
     message = f"this nivel reads format {known}, not {shown(given)}"
     if isinstance(given, int) and not isinstance(given, bool) and given > known:

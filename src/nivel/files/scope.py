@@ -33,7 +33,7 @@ from nivel.machine.laws.named_function import resolve_functions
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.parameters import resolve
 from nivel.machine.units.plain_factors import with_bodies
-from nivel.machine.units.quantity import FAULT, FunctionFault
+from nivel.machine.units.quantity import FunctionFault
 from nivel.machine.units.shared_names import name_notes
 from nivel.machine.units.tree import Number, Parameters, Signal
 from nivel.machine.uses.references import SECTIONS
@@ -241,10 +241,9 @@ def _record(tree: Tree, parameters: Parameters, made: Elements, known: Known | N
     except ValidationError as error:
         if alike:  # faults are told in the words of the file
             return _record(tree, parameters, made, None)
-        for line in _beside_functions(tree, data, known_names, names, error):
-            path = _path_in_file(line["loc"], names)
-            if line["type"] == FAULT and not tree.is_broken(path) and not _is_about_unread(tree, line["msg"]):
-                tree.faults.append(tree.fault(path, line["msg"], at_key=bool(line.get("ctx", {}).get("at_key"))))
+        problems = _beside_functions(tree, data, known_names, names, error)
+        known = (each for each in problems if not _is_about_unread(tree, each["msg"]))
+        tree.take(known, lambda path: _path_in_file(path, names))
         if not tree.faults:  # nothing is refused without a word
             lines = error.errors(include_url=False)
             tree.faults += [tree.fault(_path_in_file(line["loc"], names), line["msg"]) for line in lines]

@@ -95,17 +95,24 @@ class Sources:
         """The same while `file` is read."""
         return replace(self, open=(*self.open, resolved(file)))
 
-    def text(self, tree: Tree, path: Path, name: object) -> tuple[str, str] | None:
+    def text(self, tree: Tree, path: Path, name: object, breaks: Path | None = None) -> tuple[str, str] | None:
         """Text and name of the file `name`, which `path` of `tree` mentions; None where there is a fault, which has
-        been reported.
+        been reported, so that nothing under `breaks` is.
         """
-        file = self._file(tree, path, name)
-        return None if file is None else self._read(tree, path, file, read_text)
+        return self._found(tree, path, name, read_text, breaks)
 
-    def content(self, tree: Tree, path: Path, name: object) -> tuple[bytes, str] | None:
+    def content(self, tree: Tree, path: Path, name: object, breaks: Path | None = None) -> tuple[bytes, str] | None:
         """As `text`, of a file that holds no text."""
+        return self._found(tree, path, name, read_bytes, breaks)
+
+    def _found(
+        self, tree: Tree, path: Path, name: object, read: Callable[[str], Content], breaks: Path | None
+    ) -> tuple[Content, str] | None:
         file = self._file(tree, path, name)
-        return None if file is None else self._read(tree, path, file, read_bytes)
+        found = None if file is None else self._read(tree, path, file, read)
+        if found is None and breaks is not None:
+            tree.broken.add(breaks)
+        return found
 
     def _file(self, tree: Tree, path: Path, name: object) -> str | None:
         if not isinstance(name, str) or not name.strip():

@@ -11,9 +11,8 @@ from pydantic import ValidationError
 
 from nivel.errors import Fault, ModelError
 from nivel.files.code import read_python_code
-from nivel.files.csv_tables import CsvError, column_values
-from nivel.files.measured_file import KINDS
-from nivel.files.outline import other_format
+from nivel.files.csv_tables import column_values, with_table
+from nivel.files.outline import take_format
 from nivel.files.overrides import override
 from nivel.files.sources import Sources, beside, read_text
 from nivel.files.tree import Path, Tree, read_tree
@@ -24,7 +23,7 @@ from nivel.machine.study import StudyRecord
 from nivel.machine.study.analyses import SETTINGS
 from nivel.machine.study.output import OUTPUTS
 from nivel.machine.study.parameter import PARAMETERS
-from nivel.machine.units.quantity import FAULT, shown
+from nivel.machine.units.quantity import shown
 
 FORMAT: Final = 1
 TOP_WORDS: Final = ("format", *field_words(StudyRecord))
@@ -102,7 +101,7 @@ def study_and_faults(
         )
         raise ModelError([*tree.faults, tree.fault((), message)])
     override(tree, overrides or {}, words=TOP_WORDS)
-    _check_format(tree)
+    take_format(tree, FORMAT, needed=True)
     sources = Sources(allow_code).inside(file)
     read_python_code(tree, sources, "outputs", "output")
     _read_columns(tree, sources)
@@ -110,10 +109,7 @@ def study_and_faults(
     try:
         record = StudyRecord.model_validate(data)
     except ValidationError as error:
-        for line in error.errors(include_url=False):
-            place = line["loc"]
-            if line["type"] == FAULT and not tree.is_broken(place):
-                tree.faults.append(tree.fault(place, line["msg"], at_key=bool(line.get("ctx", {}).get("at_key"))))
+        tree.take(error.errors(include_url=False))
         record = _right_part(data)
     study = None if record is None else StudyFile(record, tree, file, text, allow_code)
     return study, tree.faults
@@ -137,15 +133,6 @@ def _right_part(data: dict[str, Any]) -> StudyRecord | None:
                 return None
 
 
-def _check_format(tree: Tree) -> None:
-    if "format" not in tree.data:
-        tree.faults.append(tree.fault((), f"`format: {FORMAT}` is missing"))
-        return
-    given = tree.data.pop("format")
-    if given != FORMAT or isinstance(given, bool):
-        raise ModelError([*tree.faults, tree.fault(("format",), other_format(given, FORMAT))])
-
-
 def _read_columns(tree: Tree, sources: Sources) -> None:
     """Put the column of `csv: table.csv` into each parameter, as `values`. Faults go to `tree.faults`."""
     parameters = tree.data.get("parameters")
@@ -156,22 +143,10 @@ def _read_columns(tree: Tree, sources: Sources) -> None:
         if "values" in given:
             tree.report((*path, "csv"), "give `values` or `csv`, not both", at_key=True)
             continue
-        binary = str(given["csv"]).lower().endswith(KINDS)
-        found = (sources.content if binary else sources.text)(tree, (*path, "csv"), given["csv"])
-        if found is None:
-            tree.broken.add(path)
-            continue
-        try:
-            values: list[Any] = column_values(*found, given.get("column"), given.get("units"))
-        except CsvError as problem:
-            if problem.line:
-                tree.faults.append(Fault(found[1], problem.line, 1, ".".join(path), str(problem)))
-            else:
-                tree.report((*path, problem.key), str(problem))
-            tree.broken.add(path)
-            continue
-        given["values"] = values
-        tree.places[(*path, "values")] = tree.places[(*path, "csv")]
+        values = with_table(tree, sources, path, given, column_values)
+        if values is not None:
+            given["values"] = values
+            tree.places[(*path, "values")] = tree.places[(*path, "csv")]
 
 
 _DRAFT = "https://json-schema.org/draft/2020-12/schema"

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Hashable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping
 from typing import Any, Final
 
 from nivel.errors import Fault, ModelError
@@ -27,6 +27,7 @@ from nivel.files.nodes import (
     cut_at_comma,
 )
 from nivel.lazy import dataclass, field
+from nivel.machine.units.quantity import FAULT
 
 Path = tuple[str | int, ...]
 
@@ -77,10 +78,17 @@ class Tree:
         names = ", ".join(f"`{each}`" for each in inner)
         return f" ({names} set from outside the file)" if names and path else ""
 
-    def report(self, path: Path, message: str, *, at_key: bool = False) -> None:
-        """Collect the fault, and let nothing that follows from it be reported."""
+    def report(self, path: Path, message: str, *, at_key: bool = False, breaks: Path | None = None) -> None:
+        """Collect the fault, and let nothing that follows from it be reported, there or under `breaks`."""
         self.faults.append(self.fault(path, message, at_key=at_key))
-        self.broken.add(path)
+        self.broken |= {path} if breaks is None else {path, breaks}
+
+    def take(self, problems: Iterable[Mapping[str, Any]], place: Callable[[Path], Path] = lambda path: path) -> None:
+        """Collect the faults of a record, as pydantic has them, but those that follow from others. place : in the file, of one in it."""
+        for each in problems:
+            path = place(each["loc"])
+            if each["type"] == FAULT and not self.is_broken(path):
+                self.faults.append(self.fault(path, each["msg"], at_key=bool(each.get("ctx", {}).get("at_key"))))
 
     def is_outside(self, path: Path) -> bool:
         """Whether what stands at `path` was set from outside the file."""

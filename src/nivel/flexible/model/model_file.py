@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path as FilePath
 from typing import Any, Final
 
 from pydantic import ValidationError
 
 from nivel.errors import Fault, ModelError
-from nivel.files.outline import other_format
+from nivel.files.outline import take_format
 from nivel.files.overrides import override
 from nivel.files.sources import read_text
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.flexible.model.records import ModelRecord
 from nivel.machine.core.record import field_words
 from nivel.machine.parameters import resolve
-from nivel.machine.units.quantity import FAULT, shown
+from nivel.machine.units.quantity import shown
 from nivel.machine.units.tree import Parameters
 
 FORMAT: Final = 1
@@ -67,29 +68,17 @@ def parse_model(text: str, file: str = "model.yaml", *, overrides: Mapping[str, 
         message = f"this is a machine, not the model of a flexible body: `nivel run {file}` simulates it"
         raise ModelError([*tree.faults, tree.fault((), message)])
     override(tree, overrides or {}, words=TOP_WORDS)
-    _check_format(tree)
+    take_format(tree, FORMAT, needed=True)
     parameters = _parameters(tree)
     data = {"name": FilePath(file).stem or "body", **tree.data}
     try:
         record = ModelRecord.model_validate(data, context={"parameters": parameters})
     except ValidationError as error:
-        for line in error.errors(include_url=False):
-            place = _in_file(tree.data, line["loc"])
-            if line["type"] == FAULT and not tree.is_broken(place):
-                tree.faults.append(tree.fault(place, line["msg"], at_key=bool(line.get("ctx", {}).get("at_key"))))
+        tree.take(error.errors(include_url=False), partial(_in_file, tree.data))
         raise ModelError(tree.faults) from None
     if tree.faults:
         raise ModelError(tree.faults)
     return Located(record, parameters, tree)
-
-
-def _check_format(tree: Tree) -> None:
-    if "format" not in tree.data:
-        tree.faults.append(tree.fault((), f"`format: {FORMAT}` is missing"))
-        return
-    given = tree.data.pop("format")
-    if given != FORMAT or isinstance(given, bool):
-        raise ModelError([*tree.faults, tree.fault(("format",), other_format(given, FORMAT))])
 
 
 def _parameters(tree: Tree) -> Parameters:

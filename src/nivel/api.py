@@ -21,7 +21,7 @@ from nivel.elements.joints.joint import Joint
 from nivel.errors import Fault, ModelError, refuse
 from nivel.files.reader import Origin, parse_machine, read_text
 from nivel.files.values import outside_paths
-from nivel.lazy import nivel, numpy
+from nivel.lazy import nivel, numpy, xarray
 from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
@@ -51,8 +51,6 @@ from nivel.words.arguments import checked_arguments
 from nivel.words.wording import shown
 
 if TYPE_CHECKING:
-    import xarray
-
     from nivel.analysis.assembly.mass import MassProperties
     from nivel.analysis.interactive.posing import Posing
     from nivel.analysis.inverse.mechanics import Mechanics

@@ -20,8 +20,6 @@ from nivel.results.frames.tabulated import write_netcdf
 from nivel.words.arguments import checked_arguments
 
 if TYPE_CHECKING:
-    import xarray
-
     from nivel.analysis.optimise.identify import Identified
     from nivel.analysis.optimise.optimise import Optimum
     from nivel.analysis.progress.journal import Journal

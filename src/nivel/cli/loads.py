@@ -9,11 +9,9 @@ import click
 
 from nivel.cli.options import file_argument, json_option, separated
 from nivel.errors import Fault, ModelError
-from nivel.lazy import nivel, rich
+from nivel.lazy import nivel, rich, xarray
 
 if TYPE_CHECKING:
-    import xarray
-
     from nivel.results import Result
 
 

@@ -15,12 +15,10 @@ import click
 
 from nivel.cli.analysis_command import StudyOrder, study_command
 from nivel.cli.failures import COMPUTATION_FAILED
-from nivel.lazy import nivel, numpy, rich
+from nivel.lazy import nivel, numpy, rich, xarray
 from nivel.words.wording import seconds
 
 if TYPE_CHECKING:
-    import xarray
-
     from nivel.studies import Study
 
 SHOWN: Final = 8  # variants in the live table, and reasons in the summary

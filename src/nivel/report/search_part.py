@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.lazy import xarray
 from nivel.results.study_statistics import Table
-
-if TYPE_CHECKING:
-    import xarray
 
 Array = NDArray[np.float64]
 

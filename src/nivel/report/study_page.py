@@ -6,12 +6,13 @@ import json
 import os
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.files.target import write_text
+from nivel.lazy import xarray
 from nivel.report.page import page, text_of
 from nivel.report.search_part import SEARCHES, search_of
 from nivel.report.story import trusted
@@ -26,9 +27,6 @@ from nivel.results.study_statistics import (
     surface,
 )
 from nivel.results.trust import Trust
-
-if TYPE_CHECKING:
-    import xarray
 
 MOST_LINES: Final = 2000  # variants that are drawn
 MOST_REASONS: Final = 30

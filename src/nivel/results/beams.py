@@ -30,8 +30,6 @@ from nivel.system.beams.gradient_elements import (
 from nivel.system.beams.gradient_nodes import gradient_nodes, modes_in_gradients
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from nivel.results.result import Result
 
 
@@ -98,7 +96,7 @@ def _felt_by_springs(beam: Beam, place: Array, theta: Array) -> Felt:
     return _felt_elastically(beam, nivel.system.beams.segments.boundaries(beam), weight, strain)
 
 
-def beam_sections(result: Result, name: str) -> xr.Dataset:
+def beam_sections(result: Result, name: str) -> xarray.Dataset:
     """What the sections of the beam `name` feel at all times, at the Gauss points of its elements or where its segments meet.
 
     Dimensions `time`, `point`, `component` (x along the beam, y and z across it: axes of the section). Variables: `share` (point) of the

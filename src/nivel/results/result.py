@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import nivel, provided
+from nivel.lazy import nivel, provided, xarray
 from nivel.results.estimate import ATTRIBUTE, Estimate
 from nivel.results.frames.contents import Contents, Selection, own_units, selections, unknown_name
 from nivel.results.frames.stored import StoredContents, understood
@@ -25,7 +25,6 @@ from nivel.words.arguments import checked_arguments
 from nivel.words.wording import in_results
 
 if TYPE_CHECKING:
-    import xarray
     from matplotlib.figure import Figure
 
     from nivel.results.stress import RecoveredBody

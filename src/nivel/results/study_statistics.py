@@ -5,15 +5,12 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import dataclass, field
-
-if TYPE_CHECKING:
-    import xarray
+from nivel.lazy import dataclass, field, xarray
 
 Array = NDArray[np.float64]
 ENDED: Final = ("done", "stopped")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +15,6 @@ from nivel.files.target import written
 from nivel.lazy import dataclass, field, xarray
 from nivel.results.frames.tabulated import Tabulated
 from nivel.results.trust import Trust
-
-if TYPE_CHECKING:
-    import xarray
-
 
 Array = NDArray[np.float64]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +16,6 @@ from nivel.results.curve import TOLD, curve
 from nivel.results.frames.tabulated import Tabulated
 from nivel.results.reductions import extreme, integral, integral_of_magnitude, peak, rms
 from nivel.results.trust import Trust
-
-if TYPE_CHECKING:
-    import xarray
 
 Array = NDArray[np.float64]
 # generalised forces missing below this share are round-off

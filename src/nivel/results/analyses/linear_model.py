@@ -20,8 +20,6 @@ from nivel.results.frames.tabulated import Column, Rows, Tabulated, chosen
 from nivel.results.trust import Trust
 
 if TYPE_CHECKING:
-    import xarray
-
     from nivel.results.result import Result
     from nivel.view.page import Inline
 

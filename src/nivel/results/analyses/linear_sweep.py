@@ -8,7 +8,7 @@ from functools import cached_property
 from itertools import pairwise
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +21,6 @@ from nivel.machine.units.tree import ExpressionError
 from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.frames.tabulated import write_dataset
 from nivel.results.trust import Trust
-
-if TYPE_CHECKING:
-    import xarray
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -21,8 +21,6 @@ from nivel.results.motion import rotation_matrices
 from nivel.results.trust import Trust
 
 if TYPE_CHECKING:
-    import xarray
-
     from nivel.machine.machine_record import MachineRecord
     from nivel.results.result import Result
 

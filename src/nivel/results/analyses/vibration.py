@@ -27,8 +27,6 @@ from nivel.results.curve import Curve, curve_of
 from nivel.words.wording import shown, unknown_word
 
 if TYPE_CHECKING:
-    import xarray
-
     from nivel.results.analyses.linear_model import LinearModel
     from nivel.results.result import Result
 

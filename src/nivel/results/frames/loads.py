@@ -17,8 +17,6 @@ from nivel.results.curve import TOLD, Curve, curve, curve_of, probed
 from nivel.results.reductions import Number, integral, integral_of_magnitude, largest, mean, peak, turning_values
 
 if TYPE_CHECKING:
-    import xarray
-
     from nivel.results.result import Result
 
 Array = NDArray[np.float64]

@@ -13,7 +13,6 @@ from math import nan
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan
@@ -43,12 +42,12 @@ from nivel.live.parts import ENTRIES, shares
 from nivel.live.preparation import HAND_INPUTS, LiveRun, Pace, live_plan, prepared_run
 from nivel.live.shared import arrays_of, bytes_of, live_in, put_back, taken
 from nivel.live.timing import Timing, clock_addresses, timing_of
+from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.signals.input import Input
 from nivel.methods import CHOSEN, known_words
 from nivel.native import library
 
-Array = NDArray[np.float64]
 DURATION: Final = 2.0  # s simulated, at least so many ticks
 TICKS_AT_LEAST: Final = 2000
 CYCLES: Final = 2.0  # of every lever

@@ -16,11 +16,10 @@ from typing import IO, Any, Final, NamedTuple
 from weakref import finalize
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 ENDING: Final = ".part"
 FIRST_LINE: Final = b"recording of `nivel live` that was not completed; `nivel replay FILE` plays it\n"
 HEAD: Final = struct.Struct("<IIIII")  # kind, rows, columns, sum of the payload, sum of the four numbers before

@@ -10,7 +10,6 @@ from math import isnan
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.integrate.loop.sink import Header
 from nivel.judge.after.checks import circuits, energy, joints
@@ -19,13 +18,13 @@ from nivel.judge.after.checks.joints import Violation
 from nivel.judge.after.subject import Motion
 from nivel.lazy import dataclass, field, replace
 from nivel.live.timing import Timing
+from nivel.machine.core.vectors import Array
 from nivel.results.frames.contents import MemoryContents
 from nivel.results.result import Result
 from nivel.results.scales import largest_speed, speed_of_rest
 from nivel.results.trust import Item, Threshold, Verdict, number, worst
 from nivel.system.layout import FrameLayout
 
-Array = NDArray[np.float64]
 REAL_TIME: Final = Threshold(
     1e-2,
     1e-1,

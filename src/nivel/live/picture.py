@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nivel.machine.core.vectors import Array
 from nivel.machine.signals.input import Input
 from nivel.machine.signals.sensor import Sensor
 from nivel.system.layout import FrameLayout, Variable
@@ -18,7 +18,6 @@ from nivel.view.records import PROTOCOL, Control, Gauge, Package
 from nivel.view.sources import machine_stage
 from nivel.words.wording import label_of
 
-Array = NDArray[np.float64]
 MOST_GAUGES: Final = 16
 MOST_TRACED: Final = 3  # markers that leave their paths in the picture
 SHOWN_FIRST: Final = ("sensor.", "state.")

@@ -10,7 +10,6 @@ from typing import IO, Any, Final
 from zipfile import ZIP_DEFLATED, BadZipFile, ZipFile
 
 import numpy as np
-from numpy.typing import NDArray
 
 import nivel
 from nivel.errors import ModelError
@@ -30,11 +29,11 @@ from nivel.live.journal import (
     rows_of,
 )
 from nivel.live.preparation import Pace
+from nivel.machine.core.vectors import Array
 from nivel.machine.laws.time_function import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.native.store import whole
 
-Array = NDArray[np.float64]
 FORMAT: Final = 2
 ENDING: Final = ".live.npz"
 

@@ -9,9 +9,6 @@ from collections.abc import Callable, Mapping, Sequence
 from multiprocessing.shared_memory import SharedMemory
 from typing import Final
 
-import numpy as np
-from numpy.typing import NDArray
-
 from nivel.analysis.plan.plan import Plan
 from nivel.errors import Fault, ModelError
 from nivel.integrate.loop.paced import COMMAND, DONE, HEARD, LOST, MODE, SAVED, SPEED, Live
@@ -24,9 +21,9 @@ from nivel.live.recording import Take, takes_of
 from nivel.live.shared import Sizes, bytes_of, copy_of, live_in
 from nivel.live.solver import Told, main
 from nivel.live.timing import Timing, timing_of
+from nivel.machine.core.vectors import Array
 from nivel.machine.signals.input import Input
 
-Array = NDArray[np.float64]
 LOOK: Final = 1.0  # s between two looks at how far the run can be trusted
 POLL: Final = 0.004  # s between two looks for a new frame
 OBEYED: Final = 5.0  # s that a command may take

@@ -7,14 +7,13 @@ import time
 from typing import Final, Literal, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.live.picture import Picture
 from nivel.live.session import COMMANDS, Session
+from nivel.machine.core.vectors import Array
 from nivel.view.records import Command, Drive, Hold, Note, Status, Take
 from nivel.view.sources import Still
 
-Array = NDArray[np.float64]
 PATIENCE: Final = 2.0  # s that an operator may be silent before another one may take over
 ONLY_WATCH: Final = "a program operates the machine by datagrams; this page can only watch"
 NO_INPUTS: Final = "the inputs of this machine come by datagrams, not from a page"

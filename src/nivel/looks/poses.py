@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.elements.joints import JOINTS, drawn
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 Pose = tuple[Array, Array]  # position (3,) [m] and rotation matrix (3, 3) of a body frame, global axes
 
 

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.lazy import dataclass
-
-Array = NDArray[np.float64]
+from nivel.machine.core.vectors import Array
 
 PLANAR = 0.05  # a machine thinner than this fraction of its length is flat
 ALIGNED = 0.99  # cosine of axes that count as parallel

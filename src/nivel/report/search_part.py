@@ -7,12 +7,10 @@ from collections.abc import Iterator
 from typing import Any, Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.lazy import xarray
+from nivel.machine.core.vectors import Array
 from nivel.results.study_statistics import Table
-
-Array = NDArray[np.float64]
 
 SEARCHES: Final = ("optimise", "identify")
 WIDTH, HEIGHT, LEFT, BELOW, ABOVE = 560, 240, 70, 36, 14  # px

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.lazy import dataclass, nivel, scipy, xarray
 from nivel.machine.beams.beam import Beam
 from nivel.machine.core.record import unknown_word
+from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.stored import understood
 from nivel.system.beams.elements import gauss
@@ -199,9 +199,6 @@ def _cable(beam: Beam, v: Array, axes: Array) -> Felt:
     return Felt(
         _share(beam, xi), np.outer(lengths, weight).ravel(), strain.reshape(shape), stress.reshape(shape), energy
     )
-
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

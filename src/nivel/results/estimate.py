@@ -7,14 +7,13 @@ import re
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.lazy import dataclass, field
+from nivel.machine.core.vectors import Array
 from nivel.results.frames.contents import shape_of
 from nivel.results.motion import common_frames
 from nivel.results.scales import Readable
 
-Array = NDArray[np.float64]
 ATTRIBUTE = "estimated_errors"
 # Estimates are kept at so many times, at fewer of machines with more numbers than this.
 TIMES, NUMBERS = 50, 200_000

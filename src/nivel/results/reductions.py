@@ -6,11 +6,10 @@ from collections.abc import Callable, Mapping
 from typing import Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nivel.machine.core.vectors import Array
 from nivel.results.curve import Curve, hermite
 
-Array = NDArray[np.float64]
 _PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(4)
 GAUSS: Final = tuple(zip(0.5 + 0.5 * _PLACES, 0.5 * _WEIGHTS, strict=True))  # exact for products of two cubics
 CROSSING: Final = np.linspace(0.0, 1.0, 17)  # places in an interval in which the magnitude of a number has a corner

@@ -8,11 +8,9 @@ from functools import lru_cache
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-from nivel.machine.core.vectors import cross
+from nivel.machine.core.vectors import Array, cross
 
-Array = NDArray[np.float64]
 BLOCK = 16 * 1024  # frames read at once: a long run need not fit in memory
 EXTENT_FLOOR = 1e-12  # of the distance from the global origin: round-off of points that are one
 REST = 1e-3  # of the size, travelled in the time of the run: a machine that stays below it is at rest

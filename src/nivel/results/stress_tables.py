@@ -9,13 +9,11 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.files.target import written
 from nivel.flexible.body.recovery import displacement, signed_principal, stress, stress_modes, von_mises
+from nivel.machine.core.vectors import Array
 from nivel.results.stress import RecoveredBody
-
-Array = NDArray[np.float64]
 
 AXES: Final = ("x", "y", "z")
 STRESS: Final = ("xx", "yy", "zz", "xy", "yz", "zx")

@@ -12,16 +12,15 @@ from collections.abc import Callable, Iterator
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.lazy import dataclass
 from nivel.looks.poses import rotation
+from nivel.machine.core.vectors import Array
 from nivel.view.acting import place_of
 from nivel.view.coordinate_places import coordinate_place
 from nivel.view.records import Arrow, Force, Joint, Triple
 from nivel.view.stage import Cast
 
-Array = NDArray[np.float64]
 Read = Callable[[str], Array | None]  # a variable of the result by name (n, …), None where it has none
 
 # coordinates of joints along or about the z axis of the first marker

@@ -9,16 +9,15 @@ from __future__ import annotations
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.elements.joints.couplings import FunctionCoupling
 from nivel.looks.poses import rotation
+from nivel.machine.core.vectors import Array
 from nivel.machine.uses.coordinate_reference import Kind as CoordinateKind
 from nivel.view.coordinate_places import CoordinatePlace, coordinate_place, triple
 from nivel.view.records import Coupling, End, Track, Wheel
 from nivel.view.stage import Cast
 
-Array = NDArray[np.float64]
 # what the coordinates of a coupling are where only their joints are named
 KINDS: Final[dict[str, tuple[CoordinateKind, CoordinateKind]]] = {
     "gear": ("angle", "angle"),

@@ -5,18 +5,17 @@ from __future__ import annotations
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.lazy import dataclass
 from nivel.looks.poses import Pose, body_poses, in_space, rotation, sliding_axes, turning_axes, upwards
 from nivel.looks.solids import attached, held_points, reach_of, shapes_of
 from nivel.looks.viewpoint import choose_view, is_planar
 from nivel.machine.bodies.surface import surface_arrays
+from nivel.machine.core.vectors import Array
 from nivel.view.coordinate_places import triple
 from nivel.view.records import Triple, Viewpoint
 from nivel.view.stage import Cast
 
-Array = NDArray[np.float64]
 FAR_AWAY: Final = 1e3  # machine lengths from the global origin from which on positions are counted from the machine
 LOOKED_AT: Final = 60  # frames that the box around a motion is found from
 FLOWN: Final = 200.0  # lengths of the machine

@@ -6,11 +6,10 @@ import struct
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nivel.machine.core.vectors import Array
 from nivel.view.records import FRAME, SAMPLES, Layout
 
-Array = NDArray[np.float64]
 HEAD: Final = struct.Struct("<IId")  # what follows, number of the frame, its time
 SAMPLES_HEAD: Final = struct.Struct("<II")  # what follows, floats of a sample
 

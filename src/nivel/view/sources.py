@@ -7,9 +7,9 @@ from threading import Lock
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.machine.core.vectors import Array
 from nivel.results.result import Result
 from nivel.view import frames
 from nivel.view.couplings import couplings
@@ -31,8 +31,6 @@ from nivel.view.records import (
     Take,
 )
 from nivel.view.stage import cast, flexible
-
-Array = NDArray[np.float64]
 
 
 class Source(Protocol):

@@ -7,13 +7,13 @@ import zlib
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.elements.joints import drawn
 from nivel.lazy import dataclass, field, replace
 from nivel.looks.poses import slides_on_beam, stands_at_second
 from nivel.looks.solids import colour_of, colour_of_body, held_points, link_ends, shapes_of
 from nivel.machine.bodies.surface import surface_arrays
+from nivel.machine.core.vectors import Array
 from nivel.view.acting import drivers, forces
 from nivel.view.coordinate_places import triple
 from nivel.view.package import Block
@@ -41,7 +41,6 @@ def _sweep(sweep: dict[str, Any], places: dict[str, int]) -> Sweep:
     )
 
 
-Array = NDArray[np.float64]
 MOMENTS: Final = 100  # that are looked at for the largest displacement
 
 

@@ -9,12 +9,12 @@ from functools import lru_cache
 from typing import TypeGuard
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.analysis.curves.functions import Curve, TableCurve, varying
 from nivel.integrate.loop.run import PARTS
 from nivel.kernels.record.function import NEAR
 from nivel.lazy import scipy
+from nivel.machine.core.vectors import Array
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
@@ -159,7 +159,6 @@ def _reads_signals(node: Node) -> bool:
     return bool(signals(node))
 
 
-Array = NDArray[np.float64]
 # samples in one of the PARTS of a run
 SAMPLES_OF_A_PART = 16
 # Within a step a function changes by this share of its range at most: six steps a period.

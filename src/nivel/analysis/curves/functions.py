@@ -7,10 +7,10 @@ from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.elements.joints.couplings import FunctionCoupling
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 from nivel.machine.laws.functions import Sampling
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
@@ -23,7 +23,6 @@ from nivel.machine.units.tree import TIME
 from nivel.native.signature import LAW
 from nivel.system.laws.laws import law_address
 
-Array = NDArray[np.float64]
 # straight pieces that stand for one of a smooth table
 PIECES = 16
 # what results call a part of a section, where it is another word

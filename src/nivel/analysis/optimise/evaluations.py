@@ -12,18 +12,17 @@ from typing import Any, Final
 
 import numpy as np
 import xarray
-from numpy.typing import NDArray
 
 from nivel.analysis.progress.journal import Journal, packed, unpacked
 from nivel.analysis.sweep.outputs import Found
 from nivel.analysis.sweep.variant_runs import AnalysedVariants, VariantRuns, formulas_for
 from nivel.errors import Fault, ModelError, NivelError, SolveError, refuse
 from nivel.lazy import dataclass, nivel, scipy
+from nivel.machine.core.vectors import Array
 from nivel.machine.study import ANALYSES
 from nivel.model import Model
 from nivel.words.wording import shown, unknown_word
 
-Array = NDArray[np.float64]
 Reader = Callable[[Found], Array]
 # parameters by path to outputs (m,) and exact slopes (m, d), from one run
 Exact = Callable[[Mapping[str, float]], tuple[Array, Array]]

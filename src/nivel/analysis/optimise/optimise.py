@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 import xarray
-from numpy.typing import NDArray
 
 from nivel.analysis.optimise.evaluations import Box, Computation, Evaluations, UnreadError, nothing_found, table_of
 from nivel.analysis.optimise.search import CONSTRAINED, KEPT, LIBRARIES_OF, Search
@@ -20,11 +19,11 @@ from nivel.analysis.sweep.outputs import Found, OutputFailedError, Said, event_o
 from nivel.errors import Fault, ModelError, refuse
 from nivel.extras import require
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 from nivel.machine.study.search import SEARCH_METHODS
 from nivel.model import Model
 from nivel.words.wording import shown, unknown_word
 
-Array = NDArray[np.float64]
 Limits = Mapping[str, Sequence[float | None]]
 
 

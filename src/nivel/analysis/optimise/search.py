@@ -11,13 +11,12 @@ from functools import partial
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.analysis.optimise.evaluations import Evaluations
 from nivel.extras import needed
 from nivel.lazy import scipy
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 Objectives = Callable[[Sequence[Array]], list[float]]  # of several places at once
 Method = Callable[[Objectives, Array, int, float, int], tuple[Array, str]]
 

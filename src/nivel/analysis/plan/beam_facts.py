@@ -6,18 +6,17 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.elements.joints.joint import Joint
 from nivel.lazy import dataclass, scipy
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.beam_section import BeamSection
+from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beams.elements import elements_of, gauss, lagrange, skew
 from nivel.system.beams.gradient_beams import fastest_of_gradients
 from nivel.system.beams.nodes import with_nodes
 
-Array = NDArray[np.float64]
 FIRST_BENDING = 4.730040744862704  # first root above zero of cos x cosh x = 1: a beam with free ends
 
 

@@ -8,9 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from time import perf_counter
 from typing import Final
 
-import numpy as np
 import xarray
-from numpy.typing import NDArray
 
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.progress.pacing import interruptible
@@ -22,8 +20,6 @@ from nivel.errors import ModelError
 from nivel.lazy import nivel
 from nivel.model import Model
 from nivel.results.result import Result
-
-Array = NDArray[np.float64]
 
 FACTS: Final = {
     "outcome": "done, stopped by an event, failed, refused, or not run",

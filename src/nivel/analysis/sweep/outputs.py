@@ -8,11 +8,11 @@ from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.analysis.plan.settings import with_usual_frames
 from nivel.errors import Fault, ModelError
 from nivel.lazy import dataclass, field
+from nivel.machine.core.vectors import Array
 from nivel.machine.study import AtEvent, AtTime, EventTime, FinalValue, Output, PythonOutput, ScalarOutput
 from nivel.machine.study.any_quantity import another_measure
 from nivel.machine.study.output import SCALAR, said_output
@@ -25,7 +25,6 @@ from nivel.results.result import Result
 from nivel.results.trust import amount
 from nivel.words.wording import unknown_word
 
-Array = NDArray[np.float64]
 Found = Result | Efforts | LinearModel
 Said = str | Callable[[Any], float]
 OF_MODE = {"frequency": "Hz", "damping_ratio": "1", "real": "1/s", "imaginary": "1/s"}

@@ -9,12 +9,12 @@ from math import prod
 from typing import Any, Final, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ndtr, ndtri
 
 from nivel.errors import Fault, ModelError, refuse
 from nivel.extras import needed
 from nivel.lazy import dataclass, scipy
+from nivel.machine.core.vectors import Array
 from nivel.machine.settings.values import settings_of
 from nivel.machine.study import DRAWN, PLANNED, SOBOL_INDICES
 from nivel.machine.study.any_quantity import si, si_or_text
@@ -22,7 +22,6 @@ from nivel.machine.study.parameter import Between, Normal, Range, Tolerance, Tri
 from nivel.words.arguments import plain
 from nivel.words.wording import shown
 
-Array = NDArray[np.float64]
 SMALLEST = 2.0**-53  # share: that of the next number below 1
 
 

@@ -9,11 +9,9 @@ values at the nodes, which is exact, since the interpolation of solid elements c
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.lazy import dataclass, fields
-
-Array = NDArray[np.float64]
+from nivel.machine.core.vectors import Array
 
 LEVI_CIVITA = np.zeros((3, 3, 3))
 for _a, _b, _c in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.linalg as la
-from numpy.typing import NDArray
 
 from nivel.flexible.body.body import LeftOut
 from nivel.flexible.body.invariants import Invariants, of_points, tilde
 from nivel.flexible.model.model import Mass, MatrixMass, PointMass, at_nodes, rigid_modes, scalar_part
 from nivel.flexible.reduction.factor import Whole
 from nivel.flexible.reduction.free_body import FreeBody
-
-Array = NDArray[np.float64]
+from nivel.machine.core.vectors import Array
 
 
 def invariants(mass: Mass, modes: Array) -> Invariants:

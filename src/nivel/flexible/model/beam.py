@@ -8,13 +8,11 @@ are Hermite's. θy = -w', θz = v' then.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.lazy import dataclass
 from nivel.machine.beams.section import Material
 from nivel.machine.beams.section_properties import Section
-
-Array = NDArray[np.float64]
+from nivel.machine.core.vectors import Array
 
 GAUSS, GAUSS_WEIGHT = (np.polynomial.legendre.leggauss(4)[0] + 1.0) / 2.0, np.polynomial.legendre.leggauss(4)[1] / 2.0
 

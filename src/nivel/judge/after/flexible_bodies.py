@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable
 from nivel.system.flexible import Bending, bending_bodies
 
-Array = NDArray[np.float64]
 MODAL = ("modal_coordinate", "modal_rate", "modal_acceleration")  # of a result
 
 

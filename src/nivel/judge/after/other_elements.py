@@ -11,12 +11,12 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.elements.joints import JOINTS
 from nivel.lazy import dataclass, scipy
 from nivel.machine.beams.beam import Beam
 from nivel.machine.beams.other_elements import changed, doubled
+from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.estimate import Estimate
 from nivel.results.motion import common_frames
@@ -26,7 +26,6 @@ from nivel.system.states.relative import bodies_of
 if TYPE_CHECKING:
     from nivel.results.result import Result
 
-Array = NDArray[np.float64]
 IN_A_STEP: Final = 30  # places between two states of a path at which the nearest one is looked for
 MARGIN: Final = 1.25  # by which estimates are larger than what follows from the distance
 

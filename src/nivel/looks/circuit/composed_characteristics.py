@@ -6,18 +6,17 @@ from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.elements.circuits.check_valves import ShuttleValve
 from nivel.elements.circuits.flow_valves import FlowDivider, PriorityValve
 from nivel.elements.circuits.holding_valves import BrakeValve
 from nivel.elements.circuits.pilot_valves import PilotReducingValve, PilotReliefValve
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 
 HALVINGS: Final = 60
 
 
-Array = NDArray[np.float64]
 BAR, LITRE_PER_MINUTE = 1e5, 1e-3 / 60.0
 POINTS: Final = 121
 

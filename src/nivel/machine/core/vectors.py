@@ -1,4 +1,4 @@
-"""Vectors of space."""
+"""Arrays of numbers, and vectors of space."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
 
 
 def cross(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:

@@ -8,16 +8,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.files.target import write_text
 from nivel.lazy import dataclass, field, provided, xarray
+from nivel.machine.core.vectors import Array
 from nivel.results.curve import TOLD, curve
 from nivel.results.frames.tabulated import Tabulated
 from nivel.results.reductions import extreme, integral, integral_of_magnitude, peak, rms
 from nivel.results.trust import Trust
 
-Array = NDArray[np.float64]
 # generalised forces missing below this share are round-off
 NONE_MISSING = 1e-6
 # lines of the trust report that are said where they are green too

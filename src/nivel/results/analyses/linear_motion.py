@@ -6,11 +6,11 @@ import json
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.integrate.loop.sink import Header
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 from nivel.results.analyses.mode_motion import CYCLES, FRAMES, PERIOD, SHOWN, TURNED, turned
 from nivel.results.frames.contents import MemoryContents
 from nivel.results.result import Result
@@ -18,8 +18,6 @@ from nivel.system.layout import FrameLayout, laid_out
 
 if TYPE_CHECKING:
     from nivel.results.analyses.linear_model import LinearModel
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.elements.joints import drawn
 from nivel.errors import Fault, ModelError
 from nivel.files.target import write_text
 from nivel.lazy import dataclass, field, provided, xarray
+from nivel.machine.core.vectors import Array
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.uses.coordinate_reference import unknown_name
 from nivel.results.motion import rotation_matrices
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from nivel.machine.machine_record import MachineRecord
     from nivel.results.result import Result
 
-Array = NDArray[np.float64]
 GROUND: Final = "ground"
 # a point that moves slower than this share of its largest speed stands still: a cusp, or a dwell
 STILL: Final = 1e-6

@@ -6,17 +6,15 @@ import json
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.integrate.loop.sink import Header
+from nivel.machine.core.vectors import Array
 from nivel.results.frames.contents import MemoryContents
 from nivel.system.layout import FrameLayout, Variable
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
-
-Array = NDArray[np.float64]
 
 FRAMES, CYCLES = 121, 3  # of the motion
 PERIOD = 1.0  # s, whatever the frequency

@@ -13,13 +13,13 @@ from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError, refuse
 from nivel.files.csv_tables import CsvError, numeric_columns
 from nivel.files.measured_file import KINDS
 from nivel.files.sources import read_bytes, read_text
 from nivel.lazy import dataclass, scipy, xarray
+from nivel.machine.core.vectors import Array
 from nivel.machine.study.any_quantity import another_measure
 from nivel.machine.units.quantity import ANY, read_quantity
 from nivel.machine.units.tree import ExpressionError
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from nivel.results.analyses.linear_model import LinearModel
     from nivel.results.result import Result
 
-Array = NDArray[np.float64]
 Spectra = Mapping[str, Any] | str | PathLike[str]
 FREQUENCY: Final = "frequency"
 POWER: Final = re.compile(r"([A-Za-z°%]+)(?:\^(\d+))?")

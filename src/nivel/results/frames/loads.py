@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
 from nivel.flexible.body.recovery import Cycle, rainflow
@@ -18,8 +17,6 @@ from nivel.results.reductions import Number, integral, integral_of_magnitude, la
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
-
-Array = NDArray[np.float64]
 
 
 def reactions(result: Result) -> xarray.Dataset:

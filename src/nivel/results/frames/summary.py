@@ -8,9 +8,9 @@ from html import escape
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
@@ -140,7 +140,6 @@ def _when(times: Sequence[float]) -> str:
     return f"{len(times)} times, first at t = {times[0]:.9g} s, last at {times[-1]:.9g} s"
 
 
-Array = NDArray[np.float64]
 ATTRIBUTE = "iterations"  # of results
 
 

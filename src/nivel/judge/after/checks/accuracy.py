@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.analysis.curves.corners import rounding_of_times
 from nivel.judge.after.report import FRAMES, SECOND_RUN, STEPS, Check, Need, blindness
 from nivel.judge.after.subject import Run, Scales
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 from nivel.results.motion import Motion, Peak, distances
 from nivel.results.scales import Readable, levers, machine_size
 from nivel.results.trust import ROUND_OFF, Item, Threshold, number
@@ -141,7 +141,6 @@ def round_off(motion: Motion) -> float:
     return 0.5 * float(np.spacing(largest)) * len(motion.time) ** 0.5
 
 
-Array = NDArray[np.float64]
 # Distances grow with the exponential of time where they do so over so many powers of e, better than with a power of time.
 POWERS_OF_E, LEAST_POINTS = 5.0, 8
 # Distances between these are looked at: times the round-off, of the size; motions that far apart have parted.

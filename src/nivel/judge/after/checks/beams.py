@@ -15,18 +15,17 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.judge.after.report import FRAMES, OTHERS, STEPS, Check
 from nivel.judge.after.subject import Equilibria, Run
 from nivel.lazy import dataclass
 from nivel.machine.core.orientation import euler_parameters_from_matrix
+from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.motion import common_frames
 from nivel.results.scales import Readable, largest_mechanical_energy
 from nivel.results.trust import Item, Threshold, number
 
-Array = NDArray[np.float64]
 MOST_FRAMES = 200  # that are looked at, at most
 MESH = Threshold(
     1e-2,

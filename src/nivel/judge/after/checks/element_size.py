@@ -6,18 +6,17 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.judge.after.checks.beams import MESH
 from nivel.judge.after.other_elements import Compared, ElementErrors, Pair
 from nivel.judge.after.report import FRAMES, OTHERS, Check
 from nivel.judge.after.subject import Equilibria, Run
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 from nivel.results.motion import common_frames
 from nivel.results.scales import Readable, machine_size
 from nivel.results.trust import Item, number
 
-Array = NDArray[np.float64]
 SMALL: Final = 0.1  # of the largest motion: what moves by less is compared with that
 LEAST_MOTION: Final = 1e-5  # of the size, or of a radian: what moves by less is compared with that
 # of the largest torque, over the size: forces below are compared with that; torques likewise

@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.kind import POINT
@@ -20,6 +19,7 @@ from nivel.judge.after.flexible_bodies import Bent, ModalBody, numbered_bodies
 from nivel.judge.after.report import FRAMES, STEPS, Check, Need
 from nivel.judge.after.subject import Equilibria, Run
 from nivel.lazy import dataclass, replace
+from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, rotated
 from nivel.results.trust import Item, Threshold, number
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from nivel.flexible.body.body import Interface, LeftOut, MeshError
     from nivel.flexible.body.invariants import Invariants
 
-Array = NDArray[np.float64]
 MOST_FRAMES = 4000  # that are looked at, at most
 STRAIGHT = 1e-4  # of its size: a body that bends by less is compared with one that bends by as much
 FITS = 1e-3  # misfit, as a share, with which the forces at one interface explain the motion of a body

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.elements.contacts.contact import Contacts
 from nivel.judge.after.checks.energy import BALANCE
@@ -16,7 +15,7 @@ from nivel.judge.after.subject import Run
 from nivel.lazy import dataclass
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.bodies.shape import Sphere
-from nivel.machine.core.vectors import cross
+from nivel.machine.core.vectors import Array, cross
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, largest_mechanical_energy, rotated, speed_of_rest
 from nivel.results.trust import Item, Threshold, number, quantity
@@ -88,7 +87,6 @@ def say_motion(found: OwnError) -> Item:
     return OWN_MOTION.item("parts", said, found.share, row=found.name)
 
 
-Array = NDArray[np.float64]
 LEAST = 1e-14  # of the largest energy of the machine: round-off
 FRAMES = 20_000  # that are looked at, at most
 WORD = re.compile(r"[^\W\d]\w*(?:-\w+)*")

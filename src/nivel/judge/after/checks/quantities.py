@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.elements.contacts.contact import Contact
 from nivel.judge.after.checks import friction
@@ -14,6 +13,7 @@ from nivel.judge.after.flexible_bodies import MODAL, ModalBody, modal_bodies, po
 from nivel.judge.after.report import ESTIMATE, Check
 from nivel.judge.after.subject import Run
 from nivel.lazy import dataclass, replace
+from nivel.machine.core.vectors import Array
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import ANY, constant_tree, read_quantity
@@ -25,7 +25,6 @@ from nivel.results.trust import Item, Threshold, amount, number
 from nivel.system.layout import Variable
 from nivel.words.wording import seconds
 
-Array = NDArray[np.float64]
 THRESHOLD = Threshold(
     1e-2,
     1e-1,

@@ -87,7 +87,6 @@ import nivel.c_library
 import nivel.c_library.exported
 import nivel.c_library.writer
 import nivel.cli
-import nivel.cli.analysis_command
 import nivel.cli.live
 import nivel.cli.progress
 import nivel.elements

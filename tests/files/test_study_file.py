@@ -7,7 +7,7 @@ import pytest
 import nivel
 from nivel.analysis.sweep.resolution import resolve
 from nivel.errors import ModelError
-from nivel.files.study_file import parse_study, read_study, study_schema
+from nivel.files.study_file import study_and_faults, study_schema
 
 MACHINE = """
 format: 1
@@ -25,9 +25,17 @@ def folder(tmp_path):
     return tmp_path
 
 
+def parsed(text, file="study.yaml", **words):
+    found, faults = study_and_faults(text, file, **words)
+    if faults:
+        raise ModelError(faults)
+    return found
+
+
 def study(folder, text, **words):
-    (folder / "study.yaml").write_text(f"format: 1\nmachine: machine.yaml\n{text}", encoding="utf-8")
-    return read_study(folder / "study.yaml", **words)
+    content = f"format: 1\nmachine: machine.yaml\n{text}"
+    (folder / "study.yaml").write_text(content, encoding="utf-8")
+    return parsed(content, str(folder / "study.yaml"), **words)
 
 
 def resolved(folder, text):
@@ -211,7 +219,7 @@ def test_columns_of_tables_are_values_with_their_unit(folder):
 )
 def test_faults_say_what_to_write(text, message):
     with pytest.raises(ModelError) as error:
-        parse_study(f"format: 1\nmachine: a.yaml\n{text}")
+        parsed(f"format: 1\nmachine: a.yaml\n{text}")
     assert message in str(error.value)
 
 

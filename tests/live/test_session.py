@@ -1,5 +1,6 @@
 """A live machine in its process: it does what it is told, follows its operator within limits, and what it did is repeated exactly."""
 
+import json
 import time
 from itertools import pairwise
 from pathlib import Path
@@ -20,7 +21,7 @@ from nivel.files.reader import parse_machine
 from nivel.integrate.loop.paced import DONE, NEXT, SAVED, STRETCHED
 from nivel.live.opening import session_of
 from nivel.live.preparation import grip, live_plan, pace_of
-from nivel.live.recording import Recording, Take, read_recording, write_recording
+from nivel.live.recording import Recording, Take, about_run, read_recording
 from nivel.live.replay import machine_of, replay, rerun
 
 
@@ -53,8 +54,17 @@ def driven(tmp_path_factory):
         until(lambda: session.newest[0] == 0.0, "a frame at the start")
         notes["timing"] = session.timing
     path = tmp_path_factory.mktemp("live") / "cart.live.npz"
-    write_recording(path, session.plan.machine, "", {}, session.pace, session.recorder.parts)
+    write_recording(path, session.plan.machine, session.pace, session.recorder.parts)
     return notes, path
+
+
+def write_recording(path, record, pace, parts):
+    """A recording of these parts, as a run leaves it."""
+    kept = [[each.before, each.ticks, each.own.whole] for each in parts]
+    about = {**about_run(record, "", {}, pace), "parts": kept}
+    arrays = {f"{name}_{k}": getattr(each.own, name) for k, each in enumerate(parts) for name in ("tape", "frames")}
+    with path.open("wb") as file:
+        np.savez_compressed(file, about=np.array(json.dumps(about)), **arrays)
 
 
 def longest(path):
@@ -197,7 +207,7 @@ def test_a_recording_that_holds_code_is_replayed_only_where_that_is_allowed(tmp_
     law = PythonLaw("def pull(x):\n    return 20.0 * x\n", "pull", ("lever.value",))
     drive, *others = record.forces
     for forces, has_code in (((drive.replace(effort=law), *others), True), (record.forces, False)):
-        write_recording(path, record.replace(forces=forces), "", {}, pace_of(1e-3, None), [])
+        write_recording(path, record.replace(forces=forces), pace_of(1e-3, None), [])
         assert read_recording(path).has_code == has_code
         refusal = str(CliRunner().invoke(command, [str(path)]).exception)
         assert ("--allow-code" in refusal) == has_code

@@ -30,19 +30,13 @@ def progress_listener(quiet: bool) -> Iterator[Listener]:
         yield log.listener
         log.end()
         return
-    columns = (
-        rich.progress.TextColumn("{task.description}"),
-        rich.progress.BarColumn(),
-        rich.progress.TextColumn("{task.fields[reached]}"),
-        rich.progress.TimeElapsedColumn(),
-    )
-    console = rich.console.Console(stderr=True)
-    with rich.progress.Progress(*columns, console=console, transient=True) as bar:
+    columns = (rich.progress.TextColumn("{task.fields[reached]}"), rich.progress.TimeElapsedColumn())
+    with nivel.analysis.progress.log.bar_of(*columns) as bar:
         task = bar.add_task("starting", total=None, reached="")
 
         def stage(text: str, total: float | None = None) -> None:
             if text.startswith("compiling"):
-                console.print(text)  # stays
+                bar.console.print(text)  # stays
             bar.update(task, description=text, total=total, completed=0, reached="")
 
         def progress(time: float) -> None:
@@ -61,12 +55,7 @@ def progress_stage(quiet: bool) -> Iterator[Callable[[str, float], None]]:
         with progress_listener(quiet) as listener:
             yield lambda text, _share: listener.say(text)
         return
-    columns = (
-        rich.progress.TextColumn("{task.description}"),
-        rich.progress.BarColumn(),
-        rich.progress.TimeElapsedColumn(),
-    )
-    with rich.progress.Progress(*columns, console=rich.console.Console(stderr=True), transient=True) as bar:
+    with nivel.analysis.progress.log.bar_of(rich.progress.TimeElapsedColumn()) as bar:
         task = bar.add_task("starting", total=1.0)
         yield lambda text, share: bar.update(task, description=text, completed=share)
 
@@ -82,13 +71,8 @@ def progress_count(what: str, quiet: bool) -> Iterator[Callable[[int, int, str],
             listener.say(what)
             yield lambda done, count, _name: listener.say(f"{what}: {done} of {count}")
         return
-    columns = (
-        rich.progress.TextColumn("{task.description}"),
-        rich.progress.BarColumn(),
-        rich.progress.MofNCompleteColumn(),
-        rich.progress.TimeElapsedColumn(),
-    )
-    with rich.progress.Progress(*columns, console=rich.console.Console(stderr=True), transient=True) as bar:
+    columns = (rich.progress.MofNCompleteColumn(), rich.progress.TimeElapsedColumn())
+    with nivel.analysis.progress.log.bar_of(*columns) as bar:
         task = bar.add_task(what, total=None)
         yield lambda done, count, name: bar.update(task, completed=done, total=count, description=name or what)
 

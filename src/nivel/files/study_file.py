@@ -14,7 +14,7 @@ from nivel.files.code import read_python_code
 from nivel.files.csv_tables import column_values, with_table
 from nivel.files.outline import take_format
 from nivel.files.overrides import override
-from nivel.files.sources import Sources, beside, read_text
+from nivel.files.sources import Sources, beside
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.lazy import dataclass
 from nivel.machine.core.checked import without_problems
@@ -55,31 +55,6 @@ class StudyFile:
     def placed(self, path: Path, faults: Iterable[Fault]) -> list[Fault]:
         """Faults of the machine with what stands at `path`, told there, with what the machine's reader says of them."""
         return [self.fault(path, each.message) for each in faults]
-
-
-def read_study(
-    path: str | FilePath, *, overrides: Mapping[str, object] | None = None, allow_code: bool = False
-) -> StudyFile:
-    """The study in the YAML file at `path`. `overrides`: values by path, e.g. ``{"samples": 256}``.
-
-    allow_code : outputs may be Python functions, which run with all your rights. Raises ModelError with everything that is wrong in the
-    file itself, each with file, line and column; its machine is not read.
-    """
-    return parse_study(read_text(path), str(path), overrides=overrides, allow_code=allow_code)
-
-
-def parse_study(
-    text: str,
-    file: str = "study.yaml",
-    *,
-    overrides: Mapping[str, object] | None = None,
-    allow_code: bool = False,
-) -> StudyFile:
-    """The study in the YAML `text`; files that it names are seen from the folder of `file`. Raises ModelError."""
-    study, faults = study_and_faults(text, file, overrides=overrides, allow_code=allow_code)
-    if study is None or faults:
-        raise ModelError(faults)
-    return study
 
 
 def study_and_faults(

@@ -13,7 +13,6 @@ import numpy as np
 
 import nivel
 from nivel.errors import ModelError
-from nivel.files.target import written
 from nivel.lazy import dataclass, field
 from nivel.live.journal import (
     FRAMES,
@@ -122,26 +121,6 @@ def about_run(machine: MachineRecord, source: str, settings: Mapping[str, Any], 
         "settings": dict(settings),
         "pace": [pace.step, pace.substeps, pace.every],
     }
-
-
-def write_recording(
-    path: str | PathLike[str],
-    machine: MachineRecord,
-    source: str,
-    settings: Mapping[str, Any],
-    pace: Pace,
-    parts: Sequence[Part],
-) -> None:
-    """Write a run. Raises ModelError where the file cannot be written."""
-    about = {
-        **about_run(machine, source, settings, pace),
-        "parts": [[each.before, each.ticks, each.own.whole] for each in parts],
-    }
-    arrays: dict[str, Any] = {"about": np.array(json.dumps(about))}
-    for k, each in enumerate(parts):
-        arrays[f"tape_{k}"], arrays[f"frames_{k}"] = each.own.tape, each.own.frames
-    with written(path, "recording") as draft, draft.open("wb") as file:
-        np.savez_compressed(file, **arrays)
 
 
 @dataclass

@@ -59,8 +59,6 @@ STUCK = 1e-4
 MOST_BETWEEN = 2000
 # times as many positions where some do not show the motion between them; no more where there are so many
 FINER, MOST_POSITIONS = 4, 64 * 360 + 1
-# positions between which bounds of functions are looked at, at most
-MOST_LOOKED_AT = 1_000_000
 # histories that only the integration of a motion has
 INTEGRATED = frozenset({"external_work", "dissipated_energy", "energy_error"})
 FACTS = IntegratorFacts("", follow_positions, order=1, numbers=1)

@@ -6,9 +6,9 @@ import re
 import sys
 import time
 from collections.abc import Callable
-from typing import Final, TextIO
+from typing import Any, Final, TextIO
 
-from nivel.lazy import dataclass
+from nivel.lazy import dataclass, rich
 
 STEPS: Final = 10  # of a stage: after each it is worth a line again
 SOONEST: Final = 1.0  # s between two lines about one stage
@@ -86,3 +86,9 @@ class Log:
 def _steps(share: float) -> int:
     """How many steps of a stage are done."""
     return int(STEPS * share + 1e-9)
+
+
+def bar_of(*columns: Any) -> rich.progress.Progress:
+    """A bar in a terminal, gone when it ends: what is being done, how far, and these columns."""
+    first = (rich.progress.TextColumn("{task.description}"), rich.progress.BarColumn())
+    return rich.progress.Progress(*first, *columns, console=rich.console.Console(stderr=True), transient=True)

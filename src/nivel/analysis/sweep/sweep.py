@@ -12,7 +12,7 @@ from typing import Any
 import xarray
 
 from nivel.analysis.progress.journal import Journal
-from nivel.analysis.progress.log import Listener, Log
+from nivel.analysis.progress.log import Listener, Log, bar_of
 from nivel.analysis.progress.pacing import interruptible
 from nivel.analysis.sweep.outputs import Task
 from nivel.analysis.sweep.processes import Job, client_of, run_in_processes, run_on_cluster, threads_of
@@ -162,12 +162,6 @@ def progress_bar(count: int) -> Iterator[Listener]:
     if not sys.stderr.isatty():
         yield Log().listener
         return
-    columns = (
-        rich.progress.TextColumn("{task.description}"),
-        rich.progress.BarColumn(),
-        rich.progress.MofNCompleteColumn(),
-        rich.progress.TimeRemainingColumn(),
-    )
-    with rich.progress.Progress(*columns, console=rich.console.Console(stderr=True), transient=True) as shown:
+    with bar_of(rich.progress.MofNCompleteColumn(), rich.progress.TimeRemainingColumn()) as shown:
         task = shown.add_task("variants", total=count)
         yield Listener(None, lambda done: shown.update(task, completed=done))

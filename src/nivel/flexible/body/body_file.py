@@ -201,13 +201,6 @@ def read_body(path: str | Path) -> ReducedBody:
         raise ModelError(f"{path} is not a body file of nivel: {error}") from None
 
 
-def read_findings(path: str | Path) -> dict[str, Any]:
-    """What was found out when the body in the file was made."""
-    with h5py.File(path, "r") as file:
-        _check_kind(file, path)
-        return json.loads(str(file.attrs["findings"]))
-
-
 def _check_kind(file: h5py.File, path: str | Path) -> None:
     if file.attrs.get("kind") != KIND:
         raise ModelError(f"{path} is no body file of nivel; `nivel reduce MODEL -o body.nc` makes one")

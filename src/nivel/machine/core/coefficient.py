@@ -179,7 +179,6 @@ StiffnessPerLoad = Annotated[OneNumber, Quantity("stiffness per load", positive=
 DampingPerLoad = Annotated[OneNumber, Quantity("damping per load"), NotNegative]
 NotNegativePressure = Annotated[OneNumber, Quantity("pressure"), NotNegative]
 Volume = Annotated[OneNumber, Quantity("volume", positive=True)]
-NotNegativeVolume = Annotated[OneNumber, Quantity("volume"), NotNegative]
 VolumeFlow = Annotated[OneNumber, Quantity("volume flow", positive=True)]
 Displacement = Annotated[OneNumber, Quantity("displacement", positive=True)]
 Leakage = Annotated[OneNumber, Quantity("leakage"), NotNegative]

@@ -8,8 +8,7 @@ import yaml
 from nivel.errors import ModelError
 from nivel.files import parse_machine, read_machine
 from nivel.flexible.model.model_file import read_model
-from nivel.words.lines_to_write import LINES
-from nivel.words.vocabulary import SAME, translated
+from nivel.words.vocabulary import lines, same, translated
 
 BASE = """\
 format: 1
@@ -282,7 +281,7 @@ STANDS_FOR = {
     "SECOND": "rod",
 }
 SECTIONS = "forces|couplings|drivers|joints|functions|simulation|parameters|inputs"
-PROPOSED = sorted({line for each in LINES for line in re.findall(rf"`((?:{SECTIONS}): {{[^`…]*)`", each.answer)})
+PROPOSED = sorted({line for each in lines() for line in re.findall(rf"`((?:{SECTIONS}): {{[^`…]*)`", each.answer)})
 
 
 @pytest.mark.parametrize("line", PROPOSED)
@@ -410,11 +409,11 @@ def test_a_file_of_another_kind_is_recognised(name, tmp_path):
 
 
 def test_words_of_ours_are_never_translated_into_others():
-    own = set(SAME)
+    own = set(same())
     valid = sorted(own)
     assert all(translated(word, valid) in ("", f"did you mean `{word}`?") for word in own)
 
 
 def test_no_word_is_answered_where_the_answer_is_not_valid():
     assert translated("prismatic", ["mass", "inertia"]) == ""
-    assert all(translated(line.words.split(",")[0], []) == "" for line in LINES)
+    assert all(translated(line.words.split(",")[0], []) == "" for line in lines())

@@ -6,16 +6,16 @@ import os
 import platform
 import re
 import shutil
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
+from string import Template
 from typing import Any, NamedTuple
 
 import nivel
 from nivel.analysis.plan.plan import Plan
 from nivel.c_library.exported import Exported, export, refusal
 from nivel.c_library.image import LINE
-from nivel.c_library.templates import EXAMPLE, HEADER, INPUTS, INPUTS_DECLARED, MAKEFILE, SOURCE
 from nivel.files.target import reason_of, write_file
 from nivel.lazy import dataclass
 from nivel.native import library
@@ -24,6 +24,7 @@ from nivel.native.processor import LEVELS
 from nivel.native.workers import CompilationError
 from nivel.words.wording import unknown_word
 
+SOURCES = files("nivel.c_library").joinpath("sources")
 RUNTIME = "nivel_machine.h"
 
 
@@ -73,16 +74,21 @@ def _write(folder: Path, machine: Exported, system: str) -> None:
     }
     values = {**_texts(machine), **tools, "inputs_declared": "", "inputs_defined": ""}
     if machine.inputs:
-        values["inputs_declared"] = INPUTS_DECLARED.substitute(values)
-        values["inputs_defined"] = INPUTS.substitute(values)
+        values["inputs_declared"] = _filled("inputs.h", values)
+        values["inputs_defined"] = _filled("inputs.c", values)
     for file, template in (
-        (f"{name}.h", HEADER),
-        (f"{name}.c", SOURCE),
-        ("example.c", EXAMPLE),
-        ("Makefile", MAKEFILE),
+        (f"{name}.h", "machine.h"),
+        (f"{name}.c", "machine.c"),
+        ("example.c", "example.c"),
+        ("Makefile", "Makefile"),
     ):
-        write_file(folder / file, "file", template.substitute(values))
-    write_file(folder / RUNTIME, "file", files("nivel.c_library").joinpath("sources", RUNTIME).read_bytes())
+        write_file(folder / file, "file", _filled(template, values))
+    write_file(folder / RUNTIME, "file", SOURCES.joinpath(RUNTIME).read_bytes())
+
+
+def _filled(template: str, values: Mapping[str, Any]) -> str:
+    """The text of a file in `sources` with `$name` and others put in."""
+    return Template(SOURCES.joinpath(template).read_text(encoding="utf-8")).substitute(values)
 
 
 def _texts(machine: Exported) -> dict[str, Any]:

@@ -27,44 +27,6 @@ from nivel.results.motion import DEFINITION
 
 WANTED = (1e-3, 1e-6, 1e-9)  # errors to which the cheapest cell is told
 
-MEANINGS = (
-    (
-        "Loop time",
-        "process time of the compiled time loop with its frames, without assembly; the smallest of all repeats",
-    ),
-    ("Steps, rejected", "accepted steps, and steps that were repeated because their error was too large"),
-    (
-        "Evaluations, iterations",
-        "evaluations of the equations of motion, and iterations of correctors, penalties and friction",
-    ),
-    (
-        "Constraints",
-        "how far joints, couplings and drivers are open: the largest magnitude over all frames and rows, and the mean below it. Lengths "
-        "are shares of the size of the machine; rows that only normalise rotation coordinates are left out",
-    ),
-    ("Rates", "the same for the first derivatives, per second"),
-    ("Energy", "the largest error of the energy balance as a share of the largest kinetic energy, and in joules"),
-    (
-        "Motion",
-        f"distance of the motion from the reference: {DEFINITION}. Below it are the body and the time of the largest value",
-    ),
-    (
-        "Reference",
-        "a solution of another integrator at a much finer step or tolerance. Its own error is estimated by a second solution. If an "
-        "error is less than three times that of the reference, the true error has this size or is smaller",
-    ),
-    (
-        "Order",
-        "slope of the error of the motion from the next larger step to this one: 4 means that half the step leaves a sixteenth",
-    ),
-    (
-        "Spread",
-        "the largest distance between two methods, each at its finest step or tolerance. A method is left out if its own two finest "
-        f"runs differ by more than {CONVERGED:g}. If methods with different equations agree, they are right for this machine, or have "
-        "the same error",
-    ),
-)
-
 
 class Heading(NamedTuple):
     """A column of the table, and what stands small below its numbers."""
@@ -132,7 +94,8 @@ def comparison_html(comparison: Comparison) -> str:
         cells=lambda row: _cells(comparison, row),
         label=comparison.label,
         fineness=fineness,
-        meanings=MEANINGS,
+        definition=DEFINITION,
+        converged=f"{CONVERGED:g}",
         script=text_of("compare.js"),
     )
 

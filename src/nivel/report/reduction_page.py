@@ -17,37 +17,6 @@ PICTURES: Final = 12
 CELL: Final = 15.0  # pixels of a square of the MAC matrix
 GOOD, FAIR = 0.01, 0.05  # relative errors of frequencies
 
-MEANINGS: Final = (
-    (
-        "Whole model",
-        "elastic frequencies of the free finite-element model, without its six rigid-body modes",
-    ),
-    (
-        "Reduced",
-        "the same for the reduced body. It can only be stiffer, so these frequencies are never too low",
-    ),
-    (
-        "MAC",
-        "modal assurance criterion, weighted with the mass: one if the shapes of both modes are equal, zero if they are "
-        "orthogonal. If the most similar reduced mode has another number, this number stands in brackets",
-    ),
-    (
-        "Normal modes",
-        "modes of the body held at its interfaces. The effective mass of a mode is its share of the whole mass and inertia, "
-        "along and about x, y, z. If the sum is near one, no more modes are needed for forces through the interfaces",
-    ),
-    (
-        "Condition of the basis",
-        "ratio of the largest and smallest eigenvalue of its mass matrix, for vectors of unit mass. Above 1e10 interfaces "
-        "coincide or move almost no mass",
-    ),
-    (
-        "Neglecting I5, I8, I9",
-        "the largest relative change of the mass matrix if this inertia invariant is neglected, while one mode bends the body "
-        "by 1 % of its size or rotates a node by 0.05 rad. I5 and I9 need most computing time",
-    ),
-)
-
 
 class Line(NamedTuple):
     """A row of the table of frequencies."""
@@ -84,7 +53,6 @@ def reduction_html(body: ReducedBody, findings: Findings) -> str:
         sums=_sums(findings),
         inertia=_inertia(findings),
         neglect=[(name, f"{100 * value:.2g} %") for name, value in findings.neglect.items()],
-        meanings=MEANINGS,
     )
 
 

@@ -64,10 +64,9 @@ def test_help_lists_every_command():
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_every_command_exists_and_says_the_same_in_one_line(name):
+def test_every_command_exists(name):
     command = main.get_command(click.Context(main), name)
     assert isinstance(command, click.Command)
-    assert command.short_help == COMMANDS[name].help
     assert nivel(name, "--help").exit_code == 0
 
 

@@ -75,7 +75,9 @@ class LazyGroup(click.Group):
             os.environ.setdefault(variable, "1")
         gc.set_threshold(NEW_OBJECTS)
         module, _, name = place.module.partition(":")
-        return getattr(import_module(module), name or "command")
+        command: click.Command = getattr(import_module(module), name or "command")
+        command.short_help = place.help
+        return command
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]

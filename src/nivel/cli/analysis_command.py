@@ -116,7 +116,7 @@ class Order:
             say()
 
 
-def analysis_command(keys: Any, name: str, short_help: str) -> Callable[[Callable[..., None]], click.Command]:
+def analysis_command(keys: Any, name: str) -> Callable[[Callable[..., None]], click.Command]:
     """A command of an `Order`, with options for the settings of `keys`, then its own, then those that all analyses have.
 
     name : of the result file.
@@ -139,7 +139,7 @@ def analysis_command(keys: Any, name: str, short_help: str) -> Callable[[Callabl
             option(command)
         command.__click_params__ += getattr(function, "__click_params__", [])  # type: ignore[attr-defined]
         command.__doc__ = function.__doc__
-        return click.command(short_help=short_help)(file_argument("machine")(setting_options(keys)(command)))
+        return click.command()(file_argument("machine")(setting_options(keys)(command)))
 
     return made
 
@@ -168,9 +168,7 @@ class StudyOrder:
         return target, page
 
 
-def study_command(
-    short_help: str, count: str, meaning: str, *own: Any
-) -> Callable[[Callable[..., None]], click.Command]:
+def study_command(count: str, meaning: str, *own: Any) -> Callable[[Callable[..., None]], click.Command]:
     """A command of a `StudyOrder`. count : its option for the number of processes or threads. own : more options."""
 
     def made(function: Callable[..., None]) -> click.Command:
@@ -189,7 +187,7 @@ def study_command(
         for option in reversed((file_argument("study"), *files, number, *own, *shared)):
             option(command)
         command.__doc__ = function.__doc__
-        return click.command(short_help=short_help)(command)
+        return click.command()(command)
 
     return made
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from nivel.live.budget import Cost
 
 
-@click.command(short_help="Measure the computing time of a step, by method and by part.")
+@click.command()
 @file_argument("machine")
 @override_option
 @allow_code_option

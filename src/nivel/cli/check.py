@@ -12,7 +12,7 @@ from nivel.errors import SolveError
 from nivel.lazy import nivel
 
 
-@click.command(short_help="Check and assemble a machine, and describe it.")
+@click.command()
 @file_argument("machine")
 @override_option
 @allow_code_option

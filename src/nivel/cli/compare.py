@@ -35,7 +35,7 @@ WIDEST: Final = 1000  # a line of the table is a line also in a narrow terminal 
 STYLES: Final = {"failed": "red", "refused": "yellow"}
 
 
-@click.command(short_help="Run many methods and compare their speed and accuracy.")
+@click.command()
 @file_argument("machine")
 @setting_options(CompareSettingsDict)
 @click.option(

@@ -8,7 +8,7 @@ from nivel.demos.catalogue import DEMOS, demo_file
 from nivel.lazy import nivel
 
 
-@click.command(short_help="Operate one of the machines that come with nivel.")
+@click.command()
 @click.argument("name", type=click.Choice(tuple(DEMOS)), default=next(iter(DEMOS)))
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen at; default: any free port.")
 @click.option("--no-browser", is_flag=True, help="Do not open a browser.")

@@ -16,7 +16,7 @@ COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 SIGNS = {"green": "✓", "amber": "!", "red": "✕"}
 
 
-@click.command(short_help="Show how far a result can be trusted, and why.")
+@click.command()
 @file_argument("result")
 @json_option
 def command(result: str, as_json: bool) -> None:

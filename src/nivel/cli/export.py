@@ -25,7 +25,7 @@ def file_option(name: str, text: str) -> Any:
     return click.option(f"--{name}", name, is_flag=False, flag_value=BESIDE, metavar="[FILE]", help=f"Write {text}")
 
 
-@click.command(short_help="Write a result as a table, or a machine as a C library or FMU.")
+@click.command()
 @file_argument("source")
 @file_option("csv", "a table, one row per frame; default: NAME.csv in the working directory. '-' is standard output.")
 @click.option(

@@ -11,7 +11,7 @@ from nivel.cli.options import file_argument, force_option, quiet_option
 from nivel.lazy import nivel
 
 
-@click.command(short_help="Translate a model of another program into a machine file.")
+@click.command()
 @file_argument("model")
 @click.option(
     "--out", "target", metavar="FILE", help="Machine file to write; default: NAME.yaml in the working directory."

@@ -13,7 +13,7 @@ from nivel.lazy import nivel
 from nivel.settings import InverseSettingsDict
 
 
-@analysis_command(InverseSettingsDict, "NAME-inverse.nc", "Efforts of actuators that make a machine follow a motion.")
+@analysis_command(InverseSettingsDict, "NAME-inverse.nc")
 @click.option(
     "--path",
     metavar="FILE.csv",

@@ -21,9 +21,7 @@ if TYPE_CHECKING:
     from nivel.results.result import Result
 
 
-@analysis_command(
-    KinematicsSettingsDict, "NAME-kinematics.nc", "Positions, velocities and reactions of a driven machine."
-)
+@analysis_command(KinematicsSettingsDict, "NAME-kinematics.nc")
 @click.option(
     "--range", "ranged", is_flag=True, help="Find how far the coordinate of --drive can move in both directions."
 )

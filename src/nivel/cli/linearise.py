@@ -22,7 +22,7 @@ SHOWN = 20  # modes in the terminal
 MOST = 1000  # values of a parameter
 
 
-@analysis_command(LineariseSettingsDict, "NAME-linear.nc", "Eigenvalues, modes and the linear model about a state.")
+@analysis_command(LineariseSettingsDict, "NAME-linear.nc")
 @click.option(
     "--over",
     metavar="PATH=FROM:TO:COUNT UNIT",

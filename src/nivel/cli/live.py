@@ -35,7 +35,7 @@ KEYS: Final = {"ArrowLeft": "←", "ArrowRight": "→", "ArrowUp": "↑", "Arrow
 TOLD: Final = 1.0  # s in which pages hear that the solver has ended
 
 
-@click.command(short_help="Operate a machine in real time in the browser.")
+@click.command()
 @file_argument("machine")
 @override_option
 @allow_code_option

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from nivel.results import Result
 
 
-@click.command(short_help="Peak reactions, power and work, and load cycles of signals.")
+@click.command()
 @file_argument("result")
 @click.option(
     "--cycles",

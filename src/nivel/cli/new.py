@@ -19,7 +19,7 @@ SCHEMA_NAME: Final = "nivel.schema.json"
 STUDY_SCHEMA_NAME: Final = "nivel-study.schema.json"
 
 
-@click.command(short_help="Write a small example machine file with comments.")
+@click.command()
 @click.argument("name", type=click.Path(path_type=Path))
 @force_option
 @click.option(

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 SHOWN = 15  # modes in the table of the terminal
 
 
-@click.command(short_help="Reduce a finite-element model to a flexible body.")
+@click.command()
 @file_argument("model")
 @override_option
 @out_option("Body file", "NAME.nc", None)

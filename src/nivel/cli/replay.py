@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from nivel.results.result import Result
 
 
-@click.command(short_help="Repeat a recorded live run exactly, or with other methods.")
+@click.command()
 @file_argument("recording")
 @setting_options(RunSettingsDict)
 @click.option(

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from nivel.results import Result
 
 
-@analysis_command(RunSettingsDict, "NAME.nc", "Simulate a machine: result file, report, summary.")
+@analysis_command(RunSettingsDict, "NAME.nc")
 @input_option
 @click.option("--no-verify", is_flag=True, help="Make no second run, so the error is not estimated.")
 @click.option(

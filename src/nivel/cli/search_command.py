@@ -72,7 +72,7 @@ def numbers_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     rich.console.Console().print(table)
 
 
-@study_command("Find the best values of a machine's parameters.", *SEARCH)
+@study_command(*SEARCH)
 def optimise(order: StudyOrder) -> None:
     """Find the values of the parameters of STUDY with which one of its outputs is least, within the limits of the others.
 
@@ -105,7 +105,7 @@ def _say_optimum(found: Optimum) -> None:
     click.echo(f"{kept}; {found.message}", err=True)
 
 
-@study_command("Find the values of a machine's parameters from measurements.", *SEARCH)
+@study_command(*SEARCH)
 def identify(order: StudyOrder) -> None:
     """Find the values of the parameters of STUDY with which the machine moves as it was measured, by least squares.
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 SHOWN: Final = 12  # vibrations, and joint coordinates, in the terminal
 
 
-@analysis_command(StaticsSettingsDict, "NAME-statics.nc", "Find the static equilibrium of a machine under its loads.")
+@analysis_command(StaticsSettingsDict, "NAME-statics.nc")
 def command(order: Order) -> None:
     """Find the static equilibrium of MACHINE, and follow it while time changes its loads and drivers.
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 FILE = click.Path(dir_okay=False, path_type=Path)
 
 
-@click.command(short_help="Find the largest stresses in a flexible body.")
+@click.command()
 @file_argument("result")
 @click.option("--body", metavar="NAME", help="Flexible body; needed if there are several.")
 @click.option("--body-file", type=FILE, help="Body file, if it was moved since the run.")

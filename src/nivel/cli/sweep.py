@@ -27,7 +27,6 @@ STYLES: Final = {"done": "green", "stopped": "green", "refused": "yellow"}
 
 
 @study_command(
-    "Compute many variants of a machine: data file, report, summary.",
     "--workers",
     "Processes; default: one for each processor.",
     click.option("--scheduler", default="", metavar="ADDRESS", help="Compute on the Dask cluster with this scheduler."),

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 MACHINES = (".yaml", ".yml")
 
 
-@click.command(short_help="Show a result or move a machine in the browser.")
+@click.command()
 @file_argument("file")
 @click.argument("ghosts", nargs=-1, type=click.Path(dir_okay=True))
 @click.option(

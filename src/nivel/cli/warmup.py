@@ -11,7 +11,7 @@ from nivel.cli.progress import progress_count
 from nivel.lazy import nivel, rich
 
 
-@click.command(short_help="Compile all kernels ahead of the first run.")
+@click.command()
 @quiet_option
 def command(quiet: bool) -> None:
     """Compile every formulation, integrator and type of force into the user's cache, on all processors.

@@ -44,11 +44,8 @@ FOLLOWED = ("contact", "contacts", "stop")
 LOADS = ("force", "torque")
 DRIVES = ("dc-motor", "servo-motor")
 MEASURE, FRICTION = "nivel.kernels.bodies.measure", "nivel.kernels.elements.friction"
-SENSOR, WATCH, SAMPLING = (
-    "nivel.kernels.signals.sensor",
-    "nivel.kernels.signals.watch",
-    "nivel.kernels.signals.functions:sample",
-)
+SENSOR, WATCH = "nivel.kernels.signals.sensor", "nivel.kernels.signals.watch"
+SAMPLING = "nivel.kernels.signals.functions:sample"
 HEIGHT_WAY = "nivel.elements.contacts.height_way"
 GIVEN_FRICTION, RAIL = "nivel.kernels.residual.friction_residual", "nivel.kernels.bodies.rail"
 OF_BEAMS = "nivel.kernels.residual.beam_tangent"
@@ -64,6 +61,11 @@ SHARED_LOADS = "nivel.motion.shared_loads"
 COMPLETIONS = tuple(
     f"nivel.kernels.tree.tree_outputs:{name}" for name in ("complete", "complete_implicit", "complete_flexible")
 )
+
+# all modules that some machines, runs or trees need
+OF_MACHINES = (MEASURE, FRICTION, RAIL, POINTS, SENSOR, WATCH, HEIGHT_WAY, SAMPLING, OF_BEAMS, GIVEN_FRICTION)
+OF_RUNS = (LOOP, FOLLOWING, PACED, REPEATED, STATICS, TANGENT_ENTRIES, OUTPUT, SHARED_LOADS)
+OF_TREES = (OF_MODES, OF_SLIDERS, PASSING, IMPLICIT_ACCELERATIONS, *COMPLETIONS)
 
 
 def build(entries: Iterable[Entry], listener: Listener | None) -> float:
@@ -195,51 +197,13 @@ def all_entries() -> list[Entry]:
     """Every entry that any run may need, those that take longest to compile first."""
     paths, integrators = (*PATHS.values(), *FLEXIBLE.values()), all_facts()
     modules = [facts.module for facts in integrators]
-    modules += [
-        module for facts in paths for module in (facts.module, facts.correction, facts.residual, facts.dependent)
-    ]
+    for facts in paths:
+        modules += [facts.module, facts.correction, facts.residual, facts.dependent]
     over_steps = [module for facts in integrators for module in facts.over_steps]
-    modules += over_steps
-    modules += [
-        MEASURE,
-        FRICTION,
-        RAIL,
-        POINTS,
-        SENSOR,
-        WATCH,
-        HEIGHT_WAY,
-        SAMPLING,
-        IMPLICIT_ACCELERATIONS,
-        *COMPLETIONS,
-    ]
-    modules += [
-        OF_BEAMS,
-        GIVEN_FRICTION,
-        OF_MODES,
-        OF_SLIDERS,
-        PASSING,
-        LOOP,
-        FOLLOWING,
-        PACED,
-        REPEATED,
-        STATICS,
-        TANGENT_ENTRIES,
-        OUTPUT,
-        SHARED_LOADS,
-    ]
-    families = dict.fromkeys(
-        [
-            *(each for kind in FORCES.values() for each in kind.families),
-            *nivel.system.circuit_elements.families(),
-            *BEAMS,
-            read_inputs,
-            compute,
-            rate_states,
-            c_output,
-            fmu_output,
-            run_expression,
-        ]
-    )
+    modules += [*over_steps, *OF_MACHINES, *OF_RUNS, *OF_TREES]
+    signals = (read_inputs, compute, rate_states, c_output, fmu_output, run_expression)
+    forces = (family for kind in FORCES.values() for family in kind.families)
+    families = dict.fromkeys([*forces, *nivel.system.circuit_elements.families(), *BEAMS, *signals])
     residuals = [module for module in (*(path.residual for path in paths), *over_steps) if module]
     twins = [twin for module in dict.fromkeys((*residuals, *WITH_DERIVATIVES)) for twin in _twins(module)]
     twins += [family.twin for family in (*families, hold)] + _twins(SENSOR)

@@ -6,9 +6,8 @@ from html.parser import HTMLParser
 import pytest
 
 from browsing import titled, watched
-from nivel.report.compare_page import COLUMNS, comparison_html
+from nivel.report.compare_page import COLUMNS, WIDE, comparison_html, curves, diagram
 from nivel.report.plots import LogAxis, power_of_ten
-from nivel.report.work_precision import WIDE, curves, diagram
 from nivel.results.comparison import Comparison, Reference, Row, Spread
 
 VOID = {"meta", "link", "br", "hr", "img", "input"}

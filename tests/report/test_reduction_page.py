@@ -9,8 +9,7 @@ import pytest
 
 from needing import needs
 from nivel.flexible.reduce import reduce
-from nivel.report.mode_picture import MOST_TRIANGLES, mode_pictures
-from nivel.report.reduction_page import mac_drawing, reduction_html
+from nivel.report.reduction_page import MOST_TRIANGLES, mac_drawing, mode_pictures, reduction_html
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "flexible"
 

@@ -192,9 +192,9 @@ import nivel.results.comparison_table
 import nivel.results.frames
 import nivel.results.frames.circuit_balance
 import nivel.results.frames.csv_table
-import nivel.results.frames.labelled
 import nivel.results.frames.loads
 import nivel.results.frames.summary
+import nivel.results.frames.tabulated
 import nivel.results.plots
 import nivel.results.result
 import nivel.results.scales

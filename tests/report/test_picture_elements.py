@@ -10,8 +10,8 @@ from nivel.elements.joints import JOINTS
 from nivel.elements.joints.kind import unknown
 from nivel.looks.poses import sliding_axes, turning_axes
 from nivel.report.force_drawing import planes
-from nivel.report.joint_drawing import joint_icon, joint_sign
 from nivel.report.picture import machine_picture
+from nivel.report.strokes import joint_icon, joint_sign
 
 LINKS = {type_: kind.looks.ends for type_, kind in JOINTS.items() if kind.looks.ends is not None}
 AT_REST = np.array([[1.0, 0, 0, 0]])

@@ -38,10 +38,9 @@ from nivel.integrate.loop.run import TIME
 from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.output.observe import observe
 from nivel.lazy import dataclass
-from nivel.live.parts import ENTRIES, shares
 from nivel.live.preparation import HAND_INPUTS, LiveRun, Pace, live_plan, prepared_run
 from nivel.live.shared import arrays_of, bytes_of, live_in, put_back, taken
-from nivel.live.timing import Timing, clock_addresses, timing_of
+from nivel.live.timing import ENTRIES, Timing, clock_addresses, shares, timing_of
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.signals.input import Input

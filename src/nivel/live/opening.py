@@ -17,10 +17,10 @@ from nivel.files.target import check_target
 from nivel.integrate.loop.paced import drive
 from nivel.live.journal import Journal, journal_of
 from nivel.live.page import LivePage, write_live_page
-from nivel.live.parts import ENTRIES
 from nivel.live.preparation import Pace, live_plan, pace_of
 from nivel.live.recording import about_run
 from nivel.live.session import Session
+from nivel.live.timing import ENTRIES
 from nivel.native import workers
 from nivel.settings import StepSettingsDict
 from nivel.words.arguments import checked_arguments

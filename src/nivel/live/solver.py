@@ -36,10 +36,9 @@ from nivel.judge.during.stop import Stop
 from nivel.kernels.core import status as codes
 from nivel.lazy import asdict, dataclass, field, nivel
 from nivel.live import shared
-from nivel.live.parts import ENTRIES, shares
 from nivel.live.preparation import LiveRun, Pace, prepared_run
 from nivel.live.shared import Snapshot, arrays_of, live_in, put_back, taken
-from nivel.live.timing import become_urgent, clock_addresses
+from nivel.live.timing import ENTRIES, become_urgent, clock_addresses, shares
 from nivel.native import library
 
 ROUND: Final = 0.5  # s that the compiled loop goes on before Python has a turn

@@ -10,8 +10,16 @@ import numpy as np
 from nivel.looks.poses import Array, Pose, ends_in_space
 from nivel.looks.ropes import belt_line, rope_line
 from nivel.report.drawing import Drawing, Frame, Label
-from nivel.report.joint_drawing import END_ON
-from nivel.report.strokes import coil_sign, cylinder_sign, dashed_sign, ground_sign, plane_sign, rope_sign, spring_sign
+from nivel.report.strokes import (
+    END_ON,
+    coil_sign,
+    cylinder_sign,
+    dashed_sign,
+    ground_sign,
+    plane_sign,
+    rope_sign,
+    spring_sign,
+)
 
 FAR = 20.0  # a plane further away than this many lengths of the machine is left out
 HALF_PLANE = 34.0  # pixels of a plane to both sides of what touches it

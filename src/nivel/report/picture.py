@@ -43,8 +43,7 @@ from nivel.report.drawing import (
     triad_sign,
 )
 from nivel.report.force_drawing import Plane, belt_points, draw_belt, draw_force, draw_plane, force_points, planes
-from nivel.report.joint_drawing import draw_joint
-from nivel.report.strokes import centre_of_mass_sign
+from nivel.report.strokes import centre_of_mass_sign, draw_joint
 
 
 def draw_body(

@@ -20,13 +20,13 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.report.beam_shapes import beam_shapes
 from nivel.report.control_diagram import control_diagram
 from nivel.report.element_panels import power_picture
-from nivel.report.joint_drawing import joint_icon
 from nivel.report.load_path import load_paths, vibration_table
 from nivel.report.page import page, text_of
 from nivel.report.panel import Group, Panel, Thinning
 from nivel.report.panels import panels, peak_reactions
 from nivel.report.picture import STYLE, machine_picture
 from nivel.report.story import assembly_lines, event_lines, facts, headline, settings_table, timing_table, trust_lines
+from nivel.report.strokes import joint_icon
 from nivel.results.frames.stored import understood
 from nivel.results.scales import RULES
 from nivel.view.page import scene_html

@@ -240,7 +240,7 @@ class Result(Tabulated):
 
     @checked_arguments
     def __getitem__(self, name: str) -> xarray.DataArray:
-        return nivel.results.frames.labelled.data_array(self, name)
+        return nivel.results.frames.tabulated.data_array(self, name)
 
     def keys(self) -> tuple[str, ...]:
         """The names that ``result[…]`` takes, as `names`."""
@@ -266,7 +266,7 @@ class Result(Tabulated):
     @cached_property
     def dataset(self) -> xarray.Dataset:
         """Everything as one xarray dataset; read from the file when used where the run is over."""
-        return nivel.results.frames.labelled.dataset(self)
+        return nivel.results.frames.tabulated.dataset(self)
 
     @checked_arguments
     def recover(self, body: str | None = None, *, file: str | os.PathLike[str] | None = None) -> RecoveredBody:

@@ -31,8 +31,8 @@ from nivel.judge.before.refusals import sampled_times
 from nivel.model import Model
 from nivel.results.curve import TOLD
 from nivel.results.frames.contents import per
-from nivel.results.frames.labelled import data_array
 from nivel.results.frames.summary import to_json
+from nivel.results.frames.tabulated import data_array
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 

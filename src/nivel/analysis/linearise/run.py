@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.instant import NOTHING, Instant, Lanes, frame_axes, frame_place
-from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues
+from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues, graded
 from nivel.analysis.linearise.kinks import kinks, let_slide
 from nivel.analysis.linearise.ports import Catalogue, Input, Opened
 from nivel.analysis.linearise.pressures import PressureStates, pressure_states, seen, transformation, transformed
@@ -19,7 +19,6 @@ from nivel.analysis.linearise.reduction import Reduction, StateSpace, velocity_n
 from nivel.analysis.linearise.rotation import rotating
 from nivel.analysis.linearise.sampled import held_values, laws_of_samples, sampled_model, samples_of, unrest
 from nivel.analysis.linearise.validity import judged, signed
-from nivel.analysis.linearise.vibrations_apart import graded
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.log import Listener

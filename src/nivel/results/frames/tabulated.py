@@ -9,16 +9,22 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+import xarray
+
 from nivel.errors import Fault, ModelError
 from nivel.extras import needed
 from nivel.files.target import write_file
-from nivel.results.frames.contents import name_in_file
+from nivel.results.frames.contents import name_in_file, name_of
+from nivel.results.frames.stored import DAMAGE
 from nivel.words.arguments import checked_arguments
 from nivel.words.wording import unknown_word
 
 if TYPE_CHECKING:
     import pandas
     import xarray
+
+    from nivel.results.result import Result
 
 
 class Column(NamedTuple):
@@ -119,3 +125,39 @@ def write_netcdf(dataset: xarray.Dataset, target: Path) -> Path:
     """Write a dataset as it is; an existing file is replaced. Raises ModelError where it cannot be written."""
     # in memory first: HDF5 ends the process where a disk is full
     return write_file(target, "data file", dataset.to_netcdf(engine="h5netcdf"))
+
+
+def data_array(result: Result, name: str) -> xarray.DataArray:
+    """`name` with its dimensions, coordinates and units; a single element keeps its name as a scalar coordinate."""
+    if name == "time":
+        return xarray.DataArray(result.time, dims=("time",), name="time", attrs={"units": "s", "long_name": "time"})
+    found = result.selection(name)
+    variable = result.variables[found.variable]
+    where = (*found.where, *[slice(None)] * (len(variable.dims) - len(found.where)))
+    dims = [dim for dim, each in zip(variable.dims, where, strict=True) if isinstance(each, slice)]
+    coords: dict[str, object] = {"time": ("time", result.time, {"units": "s", "long_name": "time"})}
+    for dim, each in zip(variable.dims[1:], where[1:], strict=True):
+        names = result.coordinates[dim]
+        coords[dim] = (dim, list(names)) if isinstance(each, slice) else names[each]
+    attrs: dict[str, object] = {"units": result.units(name), "long_name": variable.long_name}
+    if (error := result.estimated_error(name)).size and not np.isnan(error).all():
+        attrs["estimated_error"] = float(np.nanmax(error))
+    return xarray.DataArray(result.array(name), dims=dims, coords=coords, name=name, attrs=attrs)
+
+
+def dataset(result: Result) -> xarray.Dataset:
+    """Everything. The file of a finished run is read lazily; one that may still grow, and memory, at once."""
+    if result.path is not None and result.outcome != "running":
+        try:
+            found = xarray.open_dataset(result.path, engine="h5netcdf", decode_times=False)
+            others = {name: name_of(str(name)) for name in found.data_vars if name_of(str(name)) != name}
+            return found.rename(others) if others else found
+        except (OSError, RuntimeError, *DAMAGE) as error:
+            raise ModelError(f"{result.path} is damaged and cannot be read: {error}") from None
+    variables = {
+        name: (variable.dims, result.array(name), {"units": variable.units, "long_name": variable.long_name})
+        for name, variable in result.variables.items()
+    }
+    coords: dict[str, object] = {dim: (dim, list(names)) for dim, names in result.coordinates.items()}
+    coords["time"] = ("time", result.time, {"units": "s", "long_name": "time"})
+    return xarray.Dataset(variables, coords=coords, attrs=dict(result.attributes))

@@ -84,8 +84,10 @@ def late_modules() -> set[str]:
     for text in texts.values():
         if not re.search(r"^from nivel\.lazy import .*\bnivel\b", text, re.MULTILINE):
             continue
-        for node in ast.walk(ast.parse(text)):
-            name = ast.unparse(node) if isinstance(node, ast.Attribute) else ""
+        nodes = list(ast.walk(ast.parse(text)))
+        called = [node.func for node in nodes if isinstance(node, ast.Call)]  # functions, some with the name of their module
+        for node in nodes:
+            name = ast.unparse(node) if isinstance(node, ast.Attribute) and node not in called else ""
             found |= {name} & places if re.fullmatch(r"nivel(\.\w+)+", name) else set()
     return found | {"nivel"}
 

@@ -107,7 +107,6 @@ import nivel.files.collada_file
 import nivel.files.convex_parts
 import nivel.files.fmu_file
 import nivel.files.input_table
-import nivel.files.schema
 import nivel.files.sources
 import nivel.files.step_file
 import nivel.files.study_file

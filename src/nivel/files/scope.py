@@ -242,8 +242,8 @@ def _record(tree: Tree, parameters: Parameters, made: Elements, known: Known | N
         if alike:  # faults are told in the words of the file
             return _record(tree, parameters, made, None)
         problems = _beside_functions(tree, data, known_names, names, error)
-        known = (each for each in problems if not _is_about_unread(tree, each["msg"]))
-        tree.take(known, lambda path: _path_in_file(path, names))
+        read = (each for each in problems if not _is_about_unread(tree, each["msg"]))
+        tree.take(read, lambda path: _path_in_file(path, names))
         if not tree.faults:  # nothing is refused without a word
             lines = error.errors(include_url=False)
             tree.faults += [tree.fault(_path_in_file(line["loc"], names), line["msg"]) for line in lines]

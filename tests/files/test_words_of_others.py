@@ -96,7 +96,7 @@ MISTAKES = {
         10,
         "joint-spring-damper",
     ),
-    "armature": ("axis: [0, 0, 1]}\nf", "axis: [0, 0, 1], armature: 1}\nf", 10, "add it to the `inertia`"),
+    "armature": ("axis: [0, 0, 1]}\nf", "axis: [0, 0, 1], armature: 1}\nf", 10, "`rotor_inertia: 0.01 kg*m^2`"),
     "state targets": ("axis: [0, 0, 1]}\nf", "axis: [0, 0, 1], ref: 1}\nf", 10, "`start: {angle: 30 deg}`"),
     "velocity of a joint": (
         "axis: [0, 0, 1]}\nf",

@@ -85,7 +85,8 @@ def late_modules() -> set[str]:
         if not re.search(r"^from nivel\.lazy import .*\bnivel\b", text, re.MULTILINE):
             continue
         nodes = list(ast.walk(ast.parse(text)))
-        called = [node.func for node in nodes if isinstance(node, ast.Call)]  # functions, some with the name of their module
+        # functions, some with the name of their module
+        called = [node.func for node in nodes if isinstance(node, ast.Call)]
         for node in nodes:
             name = ast.unparse(node) if isinstance(node, ast.Attribute) and node not in called else ""
             found |= {name} & places if re.fullmatch(r"nivel(\.\w+)+", name) else set()

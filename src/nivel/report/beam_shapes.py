@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 from html import escape
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,13 +25,7 @@ Numbers = NDArray[np.intp]
 SHAPES = 11  # of each beam
 PATH = 400  # points of a path, at most
 FAINT = 0.22  # opacity of the first shape; the last one has all
-STYLE = """
-.shapes text{font:500 11px/1.2 system-ui,-apple-system,"Segoe UI",Roboto,sans-serif;fill:#6b7684;text-anchor:middle}
-.shapes .aid-line{stroke:#6b7684;stroke-width:1.4;fill:none;stroke-linecap:round}
-.shapes .path{fill:none;stroke:#6b7684;stroke-width:1;stroke-dasharray:1.5 3;stroke-linecap:round}
-.shapes .line{fill:none;stroke-width:2.2;stroke-linejoin:round;stroke-linecap:round}
-@media (prefers-color-scheme:dark){.shapes text{fill:#93a0b0}.shapes .aid-line,.shapes .path{stroke:#93a0b0}}
-"""
+STYLE: Final = Path(__file__).with_suffix(".css").read_text(encoding="utf-8")
 
 
 def beam_shapes(result: Result) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from html import escape
-from typing import Any
+from pathlib import Path
+from typing import Any, Final
 
 import numpy as np
 
@@ -133,28 +134,7 @@ def _edges_seen_once(faces: list[Face]) -> set[tuple[int, int]]:
 MANY_BODIES, VERY_MANY_BODIES = 20, 200
 ALONG = np.linspace(0.0, 1.0, 12)[None, :, None]  # where lines are probed
 IMPORTANCE = ("joint-name", "body", "force-name")  # names are placed in this order
-STYLE = """
-.machine{font:500 13px/1.2 system-ui,-apple-system,"Segoe UI",Roboto,sans-serif;--paper:#fff;--ink:#1b2430;--soft:#6b7684;--rod:#c3cbd5}
-.machine .joint circle,.machine .joint rect{fill:var(--paper);stroke:var(--ink);stroke-width:1.6}
-.machine .joint .dot,.machine .mass .dot,.machine .joint .solid{fill:var(--ink);stroke:none}
-.machine .joint .thin{fill:none;stroke:var(--ink);stroke-width:1.2}
-.machine .joint .axis{fill:none;stroke:var(--ink);stroke-width:1.6;stroke-linecap:round}
-.machine .mass circle{fill:var(--paper);stroke:var(--ink);stroke-width:1.2}
-.machine .ground path{fill:none;stroke:var(--soft);stroke-width:1.6;stroke-linecap:round;stroke-linejoin:round}
-.machine .ground .foot{fill:var(--paper)}.machine .ground .hatch{stroke-width:1.1}
-.machine text{fill:var(--ink);paint-order:stroke;stroke:var(--paper);stroke-width:3.5px;stroke-linejoin:round;text-anchor:middle}
-.machine .body{font-style:italic;font-weight:600}.machine .joint-name{font-weight:500}
-.machine .force-name{font-weight:400;font-size:12px}
-.machine .spring path{fill:none;stroke:var(--ink);stroke-width:1.5;stroke-linejoin:round;stroke-linecap:round}
-.machine .spring .halo{stroke:var(--paper);stroke-width:4.2}
-.machine .pair-force{fill:none;stroke:var(--ink);stroke-width:1.2;stroke-dasharray:5 4}
-.machine .rope{fill:none;stroke:var(--ink);stroke-width:1.6;stroke-linecap:round;stroke-linejoin:round}
-.machine .rod{stroke:var(--ink);stroke-linecap:round}.machine .rod.core{stroke:var(--rod)}
-.machine .leader{stroke:var(--soft);stroke-width:.8;fill:none}
-.machine .aid{fill:var(--soft);font-size:11px;font-weight:500}
-.machine .aid-line{stroke:var(--soft);stroke-width:1.4;fill:none;stroke-linecap:round}
-@media (prefers-color-scheme:dark){.machine{--paper:#171d26;--ink:#e6ebf2;--soft:#93a0b0;--rod:#55616f}}
-"""
+STYLE: Final = Path(__file__).with_suffix(".css").read_text(encoding="utf-8")
 
 
 def machine_picture(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from html import escape
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
@@ -42,15 +43,7 @@ SUPPLY: Final = 7e5  # Pa absolute, before valves of gas
 STATED: Final = 10e5  # Pa over an edge whose catalogue states no difference of pressure
 WIDE, HIGH, LEFT, BOTTOM, TOP, RIGHT = 300.0, 190.0, 46.0, 34.0, 34.0, 12.0
 COLOURS: Final = ("#2f6fb3", "#c0392b", "#2e8b57", "#b8860b", "#7d4fa3", "#555555", "#008b8b", "#d2691e")
-STYLE = """
-.valves { font: 10px system-ui, sans-serif; color: inherit; max-width: 100%; height: auto; }
-.valves path { fill: none; stroke-width: 1.4; }
-.valves .grid { stroke: currentColor; stroke-opacity: 0.14; stroke-width: 1; }
-.valves .zero { stroke: currentColor; stroke-opacity: 0.5; stroke-width: 1; }
-.valves text { fill: currentColor; }
-.valves .name { font-weight: 600; font-size: 11px; }
-.valves .words { fill-opacity: 0.65; }
-"""
+STYLE: Final = Path(__file__).with_suffix(".css").read_text(encoding="utf-8")
 
 
 def valve_charts(record: Mapping[str, Any]) -> tuple[Chart, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
+from pathlib import Path
 from typing import Any, Final
 
 from nivel.elements.circuits.symbol import Symbol, flipped
@@ -99,23 +100,7 @@ def _is_upside_down(part: Part, circuit: Circuit) -> bool:
 
 LARGEST = 120  # components that can be read in one drawing
 COLD, KEYS = 220.0, 6  # hue of no pressure; patches of the key of colours
-STYLE = """
-.circuit { font: 11px system-ui, sans-serif; color: inherit; }
-.circuit path, .circuit circle, .circuit polyline { fill: none; stroke: currentColor; stroke-width: 1.2; stroke-linejoin: round; }
-.circuit .symbol path, .circuit .symbol circle { stroke-width: 1.3; }
-.circuit .hollow { fill: none; }
-.circuit .level { stroke-width: 1.8; }
-.circuit .key { font-size: 9px; fill-opacity: 0.65; }
-.circuit .full { fill: currentColor; stroke: none; }
-.circuit .dashed, .circuit .symbol .dashed { stroke-dasharray: 4 3; stroke-width: 1; }
-.circuit .symbol .frame { stroke-dasharray: 8 3 2 3; stroke-width: 0.9; }
-.circuit text { fill: currentColor; }
-.circuit .name { font-weight: 600; }
-.circuit .words { fill-opacity: 0.65; }
-.circuit .node, .circuit .words tspan { fill: #2f6fb3; fill-opacity: 1; }
-.circuit .port { font-size: 8px; }
-.circuit .leader { stroke: #2f6fb3; stroke-width: 0.6; stroke-opacity: 0.6; }
-"""
+STYLE: Final = Path(__file__).with_suffix(".css").read_text(encoding="utf-8")
 
 
 def circuit_diagram(record: Mapping[str, Any], pressures: Mapping[str, float]) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from html import escape
+from pathlib import Path
 from typing import Final
 
 from nivel.lazy import dataclass
@@ -17,11 +18,7 @@ COLUMNS: Final = (120.0, 300.0, 430.0, 560.0)  # x of the bars: engines, pumps a
 MOST: Final = 9  # sinks that are named, the largest ones
 LEAST: Final = 1e-3  # share of the whole below which nothing is drawn
 SOURCE, LOSS, WORK, STORE = "#2f6fb3", "#c0392b", "#2e8b57", "#b8860b"
-STYLE: Final = """
-.power { font: 11px system-ui, sans-serif; color: inherit; max-width: 100%; height: auto; }
-.power text { fill: currentColor; }
-.power .words { fill-opacity: 0.65; }
-"""
+STYLE: Final = Path(__file__).with_suffix(".css").read_text(encoding="utf-8")
 
 
 @dataclass(frozen=True)

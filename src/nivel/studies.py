@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from nivel.analysis.progress.log import Listener
 from nivel.api import Machine, code_of, load
-from nivel.errors import Fault, ModelError, SolveError
+from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.files.sources import beside, read_bytes, read_text
 from nivel.files.study_file import StudyFile, study_and_faults
 from nivel.lazy import dataclass, nivel, replace, xarray
@@ -340,8 +340,7 @@ def load_study(
         resolved = nivel.analysis.sweep.resolution.resolve(study, load(study.machine_file, allow_code=allow_code))
     except ModelError as error:
         raise ModelError([*faults, *error.faults]) from None
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return Study(resolved)
 
 

@@ -64,10 +64,7 @@ def command(
     for name in integrators or ():
         if name not in nivel.live.budget.fixed_methods():
             raise ModelError(
-                Fault(
-                    "",
-                    0,
-                    0,
+                Fault.at(
                     "integrators",
                     nivel.machine.core.record.unknown_word(name, nivel.live.budget.fixed_methods(), "integrator"),
                 )

@@ -121,7 +121,7 @@ def _refuse_other_kinds(tables: tuple[Path, ...]) -> None:
     others = [path for path in tables if path.suffix not in FORMATS]
     if others:
         message = "a table ends with .csv or .json; the page is named with --report"
-        raise ModelError(Fault("", 0, 0, "", f"{path}: {message}") for path in others)
+        raise ModelError(Fault.at("", f"{path}: {message}") for path in others)
 
 
 def _refuse_to_replace(tables: tuple[Path, ...], page: Path | None, force: bool, machine: Path) -> None:

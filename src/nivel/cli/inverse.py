@@ -41,9 +41,9 @@ def _lead(order: Order, path: str | None, point: str | None) -> None:
     machine = order.load()
     if path is None or point is None:
         missing = "path" if path is None else "point"
-        raise ModelError(Fault("", 0, 0, f"inverse.{missing}", "is missing: a path leads a point, so both are needed"))
+        raise ModelError(Fault.at(f"inverse.{missing}", "is missing: a path leads a point, so both are needed"))
     for name in order.settings:
-        raise ModelError(Fault("", 0, 0, f"inverse.{name}", "has no part in inverse kinematics: leave it out"))
+        raise ModelError(Fault.at(f"inverse.{name}", "has no part in inverse kinematics: leave it out"))
     target = Path(order.out or f"{machine.name}-joints.csv")
     nivel.files.target.check_target(target, "table", force=order.force, sources=[Path(path)])
     times, places, orientations = nivel.analysis.inverse.number_table.read_path(path)

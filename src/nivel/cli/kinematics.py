@@ -106,12 +106,10 @@ def _find(order: Order, option: str, others: tuple[str, ...], find: Callable[...
     settings = dict(order.settings)
     drive = settings.pop("drive", None)
     if drive is None:
-        raise ModelError(Fault("", 0, 0, "kinematics.drive", f"{option} needs a coordinate: name it with --drive"))
+        raise ModelError(Fault.at("kinematics.drive", f"{option} needs a coordinate: name it with --drive"))
     given = [name for name in others if name in settings]
     if given:
-        raise ModelError(
-            Fault("", 0, 0, f"kinematics.{given[0]}", f"has no part in {option}, which finds the way itself")
-        )
+        raise ModelError(Fault.at(f"kinematics.{given[0]}", f"has no part in {option}, which finds the way itself"))
     with progress_listener(order.quiet) as listener:
         return find(drive, **settings, listener=listener)
 

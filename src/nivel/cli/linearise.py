@@ -62,19 +62,19 @@ def command(
     """
     if over is not None:
         if psd:
-            raise ModelError(Fault("", 0, 0, "linearise.psd", "is of one model, and --over makes many"))
+            raise ModelError(Fault.at("linearise.psd", "is of one model, and --over makes many"))
         if with_others and "verify" in order.settings:
-            raise ModelError(Fault("", 0, 0, "linearise.verify", "--verify and --no-verify contradict each other"))
+            raise ModelError(Fault.at("linearise.verify", "--verify and --no-verify contradict each other"))
         _sweep(order, over, read_orders(orders), verify=with_others)
         return
     if with_others:
-        raise ModelError(Fault("", 0, 0, "linearise.verify", "belongs to --over; without it models are verified"))
+        raise ModelError(Fault.at("linearise.verify", "belongs to --over; without it models are verified"))
     if orders is not None:
-        raise ModelError(Fault("", 0, 0, "linearise.orders", "belongs to --over, and no parameter is given"))
+        raise ModelError(Fault.at("linearise.orders", "belongs to --over, and no parameter is given"))
     spectra = {name: level for name, _, level in (each.partition("=") for each in psd)}
     if faulty := [name for name, level in spectra.items() if not level.strip()]:
         said = f"an input and its level or table were expected, as `{faulty[0] or 'floor'}=0.01`"
-        raise ModelError(Fault("", 0, 0, "linearise.psd", said))
+        raise ModelError(Fault.at("linearise.psd", said))
     machine = order.load()
     name = f"{machine.name}-linear.nc"
     target, _ = order.files(name)
@@ -130,7 +130,7 @@ def read_range(text: str) -> tuple[str, list[float], str]:
         low, high, count = 0.0, 0.0, 0
     if not path.strip() or len(parts) != 3 or not low < high or not 2 <= count <= MOST:
         said = f"`{text}` is not of the form PATH=FROM:TO:COUNT UNIT, e.g. parameters.rope='1:8:15 m'; FROM < TO, COUNT from 2 to {MOST}"
-        raise ModelError(Fault("", 0, 0, "linearise.over", said))
+        raise ModelError(Fault.at("linearise.over", said))
     return path.strip(), [low + (high - low) * k / (count - 1) for k in range(count)], unit.strip()
 
 
@@ -139,9 +139,7 @@ def read_orders(words: tuple[str, ...] | None) -> list[float]:
     try:
         return [float(word) for word in words or ()]
     except ValueError:
-        raise ModelError(
-            Fault("", 0, 0, "linearise.orders", f"numbers were expected, got {', '.join(words or ())}")
-        ) from None
+        raise ModelError(Fault.at("linearise.orders", f"numbers were expected, got {', '.join(words or ())}")) from None
 
 
 def _of_random(model: LinearModel) -> list[str]:

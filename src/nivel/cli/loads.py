@@ -38,9 +38,7 @@ def command(result: str, signals: tuple[str, ...] | None, repeating: bool, perio
     With --cycles, also count the rainflow cycles of signals (ASTM E1049).
     """
     if repeating and not signals:
-        raise ModelError(
-            Fault("", 0, 0, "loads.repeating", "belongs to --cycles: name a signal, e.g. --cycles pin.force.x")
-        )
+        raise ModelError(Fault.at("loads.repeating", "belongs to --cycles: name a signal, e.g. --cycles pin.force.x"))
     opened = nivel.results.Result.open(result)
     tables = _tables(opened, signals or (), repeating, period)
     if as_json:

@@ -10,7 +10,7 @@ import click
 
 from nivel.cli.options import file_argument, force_option, json_option, quiet_option, separated
 from nivel.cli.progress import console, progress_stage
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.lazy import nivel
 
 if TYPE_CHECKING:
@@ -115,9 +115,8 @@ def _times(words: tuple[str, ...]) -> list[float]:
         try:
             out.append(nivel.machine.units.quantity.read_quantity(word, "time", {}))
         except ValueError as error:
-            faults.append(Fault("", 0, 0, "--at", str(error)))
-    if faults:
-        raise ModelError(faults)
+            faults.append(Fault.at("--at", str(error)))
+    refuse(faults)
     return out
 
 
@@ -131,8 +130,7 @@ def _known_nodes(found: RecoveredBody, words: tuple[str, ...]) -> list[int]:
             out[number] = None
         except ModelError as error:
             faults += error.faults
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return list(out)
 
 

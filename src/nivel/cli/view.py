@@ -9,7 +9,7 @@ import click
 
 from nivel.cli.options import allow_code_option, file_argument, force_option, override_option, quiet_option
 from nivel.cli.progress import progress_count
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.lazy import nivel
 
 if TYPE_CHECKING:
@@ -134,10 +134,7 @@ def _refuse_targets(targets: list[str], sources: list[str], force: bool) -> None
         kind = Path(target).suffix.lower()
         if kind not in (".html", ".png", *nivel.view.capture.FILMS):
             faults.append(
-                Fault(
-                    "",
-                    0,
-                    0,
+                Fault.at(
                     "",
                     f"{target}: a name ending in .html, .png, {' or '.join(nivel.view.capture.FILMS)} was expected",
                 )
@@ -149,8 +146,7 @@ def _refuse_targets(targets: list[str], sources: list[str], force: bool) -> None
             )
         except ModelError as error:
             faults += error.faults
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
 
 
 def _machine(file: str, ghosts: tuple[str, ...], overrides: dict[str, str], allow_code: bool, quiet: bool) -> Source:
@@ -173,8 +169,7 @@ def _results(
             results.append(nivel.results.Result.open(path))
         except ModelError as error:
             faults += error.faults
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     if vibration is not None:
         results = [each.mode(vibration) for each in results]
     return nivel.view.sources.Playback(results, nivel.view.playback.ALONE if alone else nivel.view.playback.SERVED)

@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.files.measured_file import KINDS, MeasuredError, measured_columns
 from nivel.files.reader import read_text
 from nivel.files.sources import read_bytes
@@ -54,8 +54,7 @@ def read_input_table(path: str | PathLike[str], name: str) -> Table:
         if not faults and times[k] <= times[k - 1]:
             message = f"times increase; {times[k]:g} s does not come after {times[k - 1]:g} s"
             faults.append(Fault(file, rows[k + 1][0], 1, "", message))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return Table(tuple(times), tuple(values))
 
 
@@ -105,8 +104,7 @@ def with_signals(machine: MachineRecord, signals: Mapping[str, float | str | Pat
             changed[name] = _followed(changed.get(name), given, name, known)
         except ModelError as error:
             faults += [_of_input(each, name, given) for each in error.faults]
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return machine.replace(inputs=tuple(changed.values()))
 
 

@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.flexible.body.body import Interface, LeftOut, ReducedBody, StressModes
 from nivel.flexible.body.mass_invariants import beside_kept, invariants, left_out
 from nivel.flexible.checks import checks
@@ -198,8 +198,7 @@ def _with_reference(
             )
             faults.append(located.fault(("reduction", "held" if reduction.held else "reference"), message))
         rows.append(row)
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     matrix = model.expansion[np.array(rows)].toarray()
     R = model.rigid_modes(model.position.mean(axis=0)) / np.array([1, 1, 1, *(3 * [model.size])])
     if np.linalg.cond(matrix @ R) > 1e8:

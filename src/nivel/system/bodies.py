@@ -48,7 +48,7 @@ def machine_size(poses: Array, markers: Markers) -> float:
         message = (
             f"the machine is {size:.3g} m long, the limit is {LARGEST:.0e} m: look for a slip in a position or a unit"
         )
-        raise ModelError(Fault("", 0, 0, "bodies", message))
+        raise ModelError(Fault.at("bodies", message))
     return size
 
 
@@ -74,10 +74,10 @@ def _refuse_lost_inertia(machine: MachineRecord, mass: Array, centre: Array, ine
                 f"{least:.1g} of the largest one, which is round-off. Look for a slip of a unit in `to` or in the section, or write "
                 f"`model: geometrically-exact`"
             )
-            faults.setdefault(beam.name, Fault("", 0, 0, f"beams.{beam.name}", message))
+            faults.setdefault(beam.name, Fault.at(f"beams.{beam.name}", message))
         elif beam is None and not least > 0.0:
             message = f"its moments of inertia are {', '.join(f'{J:.3g}' for J in moments[k])} kg m²; all have to be greater than zero"
-            faults.setdefault(body.name, Fault("", 0, 0, f"bodies.{body.name}", message))
+            faults.setdefault(body.name, Fault.at(f"bodies.{body.name}", message))
         elif (about_frame := _about_frame(mass[k], centre[k])) * ROUND_OFF > _across(centre[k], inertia[k]):
             owner = f"bodies.{body.name}" if beam is None else f"beams.{beam.name}"
             message = (
@@ -85,7 +85,7 @@ def _refuse_lost_inertia(machine: MachineRecord, mass: Array, centre: Array, ine
                 f"is round-off beside the {about_frame:.3g} kg m² of its mass there. Look for a slip of a unit in the mass, the inertia or "
                 f"the centre of mass, or put the frame nearer to it"
             )
-            faults.setdefault(body.name, Fault("", 0, 0, owner, message))
+            faults.setdefault(body.name, Fault.at(owner, message))
     if faults:
         raise ModelError(list(faults.values()))
 

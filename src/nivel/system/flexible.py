@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.errors import Fault, ModelError, located
+from nivel.errors import Fault, located, refuse
 from nivel.flexible.body.body import Interface, ReducedBody
 from nivel.flexible.body.body_file import read_body
 from nivel.flexible.body.invariants import Invariants
@@ -88,15 +88,14 @@ def bending_bodies(machine: MachineRecord) -> tuple[Bending, ...]:
         count = len(whole.eigenvalues) if body.flexible.modes is None else body.flexible.modes
         if count > len(whole.eigenvalues):
             message = f"{count} modes are asked for, {body.flexible.file} has {len(whole.eigenvalues)}"
-            faults.append(Fault("", 0, 0, f"bodies.{body.name}.flexible.modes", message))
+            faults.append(Fault.at(f"bodies.{body.name}.flexible.modes", message))
             continue
         taken = np.sort(np.argsort(whole.eigenvalues, kind="stable")[:count])
         reduced = whole.keeping(taken)
         damping = 2.0 * body.flexible.damping_ratio * np.sqrt(reduced.eigenvalues)
         beam = body.flexible.beam if isinstance(body.flexible, GradientNode) else ""
         bending.append(Bending(k, reduced, damping, tuple(taken.tolist()), body.flexible.neglect, beam))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return tuple(bending)
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
-from nivel.errors import Fault, ModelError, located
+from nivel.errors import Fault, ModelError, located, refuse
 from nivel.flexible.body.body import Interface
 from nivel.lazy import dataclass, field
 from nivel.machine.core.between import End, GlobalPoint
@@ -122,8 +122,7 @@ def refuse_unknown_interfaces(machine: MachineRecord) -> None:
         if joint.interface is not None:
             with _gathered(faults, f"joints.{joint.name}.interface"):
                 joint_point(machine, joint)
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
 
 
 @contextmanager
@@ -151,7 +150,7 @@ def interface_of(machine: MachineRecord, body: str, name: str) -> Interface:
     if name not in names:
         near = get_close_matches(name, names, n=1)
         hint = f"did you mean `{near[0]}`?" if near else f"there are {', '.join(names) or 'none'}"
-        raise ModelError(Fault("", 0, 0, "", f"the flexible body `{body}` has no interface `{name}`; {hint}"))
+        raise ModelError(Fault.at("", f"the flexible body `{body}` has no interface `{name}`; {hint}"))
     return reduced.interface(name)
 
 
@@ -177,7 +176,7 @@ def joint_point(machine: MachineRecord, joint: Joint) -> Array:
         message = (
             f"both bodies have an interface `{joint.interface}`, at different places: give the joint by two `markers`"
         )
-        raise ModelError(Fault("", 0, 0, "", message))
+        raise ModelError(Fault.at("", message))
     return points[0]
 
 

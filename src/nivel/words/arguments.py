@@ -27,7 +27,7 @@ from typing import (
     is_typeddict,
 )
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, refuse
 from nivel.lazy import dataclass
 from nivel.words.wording import shown, unknown_word
 
@@ -56,9 +56,7 @@ def checked_arguments(function: Callable[Given, Result]) -> Callable[Given, Resu
     @wraps(function)
     def call(*args: Given.args, **kwargs: Given.kwargs) -> Result:
         given, named = tuple(map(plain, args)), {name: plain(value) for name, value in kwargs.items()}
-        faults = list(_faults(function, given, named))
-        if faults:
-            raise ModelError(faults)
+        refuse(_faults(function, given, named))
         return function(*given, **named)  # type: ignore[arg-type]
 
     if (its := _unpacked(function)) != signature(function):

@@ -25,7 +25,7 @@ from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.dynamics import Loop, march, start_loop
 from nivel.analysis.run.preparation import prepare
 from nivel.analysis.run.second_run import FINER, TENTH, refine
-from nivel.errors import Fault, ModelError, SolveError
+from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.integrate.loop.sink import Header
 from nivel.judge.before.refusals import sampled_times
 from nivel.model import Model
@@ -164,7 +164,7 @@ def gradient(
     """Derivatives of `outputs` of a run with respect to the numbers at `paths`: `nivel.api.Machine.gradient`. curves : a name alone is the
     whole curve."""
     listener = listener or Listener()
-    refuse(plan)
+    refuse_without_slopes(plan)
     parameters = parameters_of(machine, paths)
     listener.say("preparing")
     varied = Varied(machine, plan, source, listener, as_asked=curves)
@@ -221,7 +221,7 @@ def _compared(output: Output, plain: Result, slopes: Slopes, finer: Slopes | Non
     return Slope(by_scale * found, by_scale * np.abs(other - found) / (1.0 - share), float(extent))
 
 
-def refuse(plan: Plan) -> None:
+def refuse_without_slopes(plan: Plan) -> None:
     """Raise ModelError where the methods of a run carry no slopes."""
     name, faults = plan.settings.integrator, []
     if name in UNFOLLOWED:
@@ -230,8 +230,7 @@ def refuse(plan: Plan) -> None:
     for kind, what in FOREIGN.items():
         if any(block.type == kind for block in plan.machine.control):
             faults.append(Fault.at("control", f"{what} give no slopes, so a machine with one has no gradients"))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
 
 
 def _refuse_events(outputs: Sequence[Output], prepared: Prepared) -> None:
@@ -241,8 +240,7 @@ def _refuse_events(outputs: Sequence[Output], prepared: Prepared) -> None:
         for each in outputs
         if each.is_event and each.name not in names
     ]
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
 
 
 def _dataset(

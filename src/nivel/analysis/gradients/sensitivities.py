@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from nivel.analysis.gradients.check import worst
-from nivel.analysis.gradients.gradient import HEADLINES, Varied, checked_slopes, refuse
+from nivel.analysis.gradients.gradient import HEADLINES, Varied, checked_slopes, refuse_without_slopes
 from nivel.analysis.gradients.outputs import Array, Parameter, outputs_of, parameters_of
 from nivel.analysis.gradients.slopes import Slopes
 from nivel.analysis.plan.plan import Plan
@@ -27,7 +27,7 @@ CHECKED = ("position", "velocity")
 
 def check_parameters(machine: Model, plan: Plan, paths: Sequence[str]) -> None:
     """Before anything is computed: raise ModelError where a path leads to no parameter, or the methods carry no slopes."""
-    refuse(plan)
+    refuse_without_slopes(plan)
     parameters_of(machine, paths)
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.flexible.checks.checks import unsymmetric
 from nivel.flexible.foreign.calculix import (
     blocks_of,
@@ -288,8 +288,7 @@ def _check_nodes(located: Located, mesh: Mesh, read: _Read, shells: Expansion | 
         names = ", ".join(map(str, unknown[:8]))
         message = f"elements of the mesh have nodes that do not exist: {names}{_hole(mesh.numbers)}"
         faults.append(located.fault(("matrices", "nodes"), f"{message}; write the mesh again, with all its nodes"))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
 
 
 def _inside(read: _Read, mesh: Mesh, shells: Expansion | None) -> set[int]:
@@ -395,5 +394,4 @@ def _check_matrices(located: Located, K: Sparse, M: Sparse, labels: tuple[Label,
         faults.append(
             located.fault(("matrices", "stiffness"), f"{message}; remove all supports before the matrices are written")
         )
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)

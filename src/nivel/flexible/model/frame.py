@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 import scipy.sparse as sp
 
-from nivel.errors import ModelError
+from nivel.errors import refuse
 from nivel.flexible.model.beam import Beam, end_stress, geometric_stiffness, mass_points, stiffness
 from nivel.flexible.model.model import Array, FiniteElementModel, PointMass, Sparse, Whole, numbered
 from nivel.flexible.model.model_file import Located
@@ -209,8 +209,7 @@ def frame_model(located: Located) -> FiniteElementModel:
             mesh.names.append(name)
     lost = "no beam ends at this node: remove it, or join it"
     faults += [located.fault(("frame", "nodes", name), lost) for name in frame.nodes if name not in used]
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     masses: dict[int, float] = {}
     for mass in frame.masses.values():
         masses[names[mass.node]] = masses.get(names[mass.node], 0.0) + mass.mass

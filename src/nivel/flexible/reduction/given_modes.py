@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from nivel.errors import ModelError
+from nivel.errors import ModelError, refuse
 from nivel.flexible.body.invariants import LEVI_CIVITA
 from nivel.flexible.model.model import AXES, Array, FiniteElementModel
 from nivel.flexible.model.model_file import Located
@@ -96,8 +96,7 @@ def _from_expressions(body: FreeBody, located: Located) -> list[Array]:
                 motions.append(_motion(body.model, functions))
             except PlaceError as error:
                 faults.append(located.fault(("reduction", "shapes", at), str(error)))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return motions
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import scipy.linalg as la
 import scipy.sparse as sp
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, refuse
 from nivel.flexible.model.model import Array, FiniteElementModel, Sparse, Whole, numbered, rigid_modes
 from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.records import InterfaceRecord
@@ -64,8 +64,7 @@ def with_interfaces(
             continue
         attachments.append(Attachment(name, len(model.position) + len(references), nodes))
         references.append(at)
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     ties = {each.name: located.record.interfaces[each.name].tie for each in attachments if len(each.tied)}
     return _tied(model, attachments, references, ties), tuple(attachments)
 

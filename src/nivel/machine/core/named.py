@@ -25,7 +25,7 @@ class NamedValues(dict[str, Value]):
         self._singular = singular
 
     def __missing__(self, name: object) -> Value:
-        raise ModelError(Fault("", 0, 0, "", unknown_word(str(name), list(self), self._singular)))
+        raise ModelError(Fault.at("", unknown_word(str(name), list(self), self._singular)))
 
 
 class Named(Mapping[str, Element], Generic[Element]):
@@ -42,22 +42,18 @@ class Named(Mapping[str, Element], Generic[Element]):
     def __getitem__(self, name: str) -> Element:
         """The element of this name. Raises ModelError with the nearest name where there is none."""
         if name not in self._records:
-            raise ModelError(Fault("", 0, 0, "", unknown_word(name, list(self._records), self._singular)))
+            raise ModelError(Fault.at("", unknown_word(name, list(self._records), self._singular)))
         return self._records[name]
 
     if not TYPE_CHECKING:  # what type checkers refuse of a mapping that cannot be changed
 
         def __setitem__(self, name: str, element: object) -> None:
             """Refused: nothing changes a machine. Raises ModelError with the line to write."""
-            raise ModelError(
-                Fault("", 0, 0, str(name), f"{_UNCHANGED} `machine = machine.replace({name})`, {_ANOTHER}")
-            )
+            raise ModelError(Fault.at(str(name), f"{_UNCHANGED} `machine = machine.replace({name})`, {_ANOTHER}"))
 
         def __delitem__(self, name: str) -> None:
             """As `__setitem__`."""
-            raise ModelError(
-                Fault("", 0, 0, str(name), f"{_UNCHANGED} `machine = machine.without({name!r})`, {_ANOTHER}")
-            )
+            raise ModelError(Fault.at(str(name), f"{_UNCHANGED} `machine = machine.without({name!r})`, {_ANOTHER}"))
 
         def __getattr__(self, name: str) -> Element:
             message = f"elements are read by their names: write [{name!r}]" if not name.startswith("_") else name

@@ -97,7 +97,7 @@ class Record(BaseModel, metaclass=RecordClass):
             f"machine = machine.with_values({{'{own}.{field}': {value!r}}})" if own else f"replace({field}={value!r})"
         )
         message = f"a record never changes; write `{line}`, which gives another one"
-        raise ModelError(Fault("", 0, 0, f"{own}.{field}" if own else field, message))
+        raise ModelError(Fault.at(f"{own}.{field}" if own else field, message))
 
     def __dir__(self) -> list[str]:
         """What completion offers: the fields, and what a record can do; not the machinery below it."""
@@ -300,7 +300,7 @@ def _faults(record: type[Record], data: Mapping[str, Any], error: ValidationErro
     """The faults of a record that was made in Python: no file, the element in words."""
     start = [record.collection, str(data["name"])] if record.collection and "name" in data else []
     return [
-        Fault("", 0, 0, ".".join([*start, *words(line["loc"], data)]), line["msg"])
+        Fault.at(".".join([*start, *words(line["loc"], data)]), line["msg"])
         for line in error.errors(include_url=False)
         if line["type"] == FAULT
     ]

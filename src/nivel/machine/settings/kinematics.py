@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.machine.core.record import Record
 from nivel.machine.given import Field, Maybe
 from nivel.machine.machine_record import MachineRecord
@@ -75,11 +75,10 @@ def kinematics_settings(machine: MachineRecord, given: Mapping[str, Any]) -> Kin
             found[name] = expression_fault(problem, asked.pop(name)).message()
     if kind == "length" and ends[-1:] != ["end"]:
         found["end"] = f"`{asked['drive']}` is a length: say to which one it is driven"
-    faults = [Fault("", 0, 0, f"kinematics.{name}", message) for name, message in found.items()]
+    faults = [Fault.at(f"kinematics.{name}", message) for name, message in found.items()]
     try:
         settings = settings_of(KinematicsSettings, "kinematics", asked)
     except ModelError as error:
         raise ModelError([*faults, *error.faults]) from None
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return settings

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 import numpy as np
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, refuse
 from nivel.extras import needed
 from nivel.files.target import keep_sources, written
 from nivel.lazy import pyarrow, scipy
@@ -55,8 +55,7 @@ def columns(result: Result, select: Iterable[str] = ()) -> list[str]:
             known = {name: result.selection(name) for name in result.names}
             faults.extend(unknown_name(entry, known).faults)
         wanted.update(dict.fromkeys(found))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return list(wanted) if wanted else [name for name, _ in scalars]
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import xarray
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.extras import needed
 from nivel.files.target import write_file
 from nivel.results.frames.contents import name_in_file, name_of
@@ -107,8 +107,7 @@ def chosen(columns: Mapping[str, Column], select: list[str]) -> dict[str, Column
         found |= its
         if not its:
             faults.append(Fault.at("select", unknown_word(entry, list(columns), "name")))
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return found if select else dict(columns)
 
 

@@ -34,9 +34,7 @@ def velocities_named(names: Sequence[str], bodies: Sequence[str], ways: Sequence
     known = {f"{body}.{way}": len(ways) * b + i for b, body in enumerate(bodies) for i, way in enumerate(ways)}
     unknown = [name for name in names if name not in known]
     if unknown:
-        raise ModelError(
-            [Fault("", 0, 0, "simulation.independent", _no_velocity(name, bodies, ways)) for name in unknown]
-        )
+        raise ModelError([Fault.at("simulation.independent", _no_velocity(name, bodies, ways)) for name in unknown])
     return [known[name] for name in names]
 
 
@@ -52,7 +50,7 @@ def refuse_dependent(chosen: Partition, wanted: Sequence[str], bodies: Sequence[
     free = len(chosen.B)
     if len(wanted) > free:
         message = f"{len(wanted)} velocities are named, and the machine has {free} {'degree' if free == 1 else 'degrees'} of freedom"
-        raise ModelError(Fault("", 0, 0, "simulation.independent", message))
+        raise ModelError(Fault.at("simulation.independent", message))
     independent = set(chosen.column[len(chosen.column) - free :].tolist())
     lost = [
         name for name, k in zip(wanted, velocities_named(wanted, bodies, ways), strict=True) if k not in independent
@@ -62,7 +60,7 @@ def refuse_dependent(chosen: Partition, wanted: Sequence[str], bodies: Sequence[
             f"{', '.join(f'`{name}`' for name in lost)} follows from the constraints{' and the others' if len(wanted) > 1 else ''} at "
             f"the start, so it cannot be independent: name another velocity"
         )
-        raise ModelError(Fault("", 0, 0, "simulation.independent", message))
+        raise ModelError(Fault.at("simulation.independent", message))
 
 
 def partition(

@@ -141,7 +141,7 @@ def _sampled(function: TimeFunction, times: int, end: float) -> tuple[Array, Arr
             break
         if sum(map(len, pieces)) + len(begin) > PIECES:
             message = f"it varies too fast to be integrated over {end:.6g} s; give a table of its values"
-            raise ModelError(Fault("", 0, 0, "", message))
+            raise ModelError(Fault.at("", message))
     ends = np.concatenate(points)
     order = np.argsort(ends[1:])
     ends = np.append(0.0, ends[1:][order])
@@ -162,7 +162,7 @@ def _refuse_jumps(ends: Array, edges: Array, most: float) -> None:
     inside = short & (np.abs(edges[:, 1] - edges[:, 0]) > most)
     if (between | inside).any():
         when = min([*ends[1:][between], *ends[:-1][inside]])
-        raise ModelError(Fault("", 0, 0, "", f"the speed jumps at t = {when:.6g} s; give it a ramp, e.g. with `step`"))
+        raise ModelError(Fault.at("", f"the speed jumps at t = {when:.6g} s; give it a ramp, e.g. with `step`"))
 
 
 def _bounds(function: TimeFunction, end: float) -> Array:
@@ -201,7 +201,7 @@ def _passed(mark: Node, low: Array, high: Array, above: NDArray[np.bool_]) -> Ar
 
 def _values(function: TimeFunction) -> Callable[[Array], Array]:
     if isinstance(function, PythonLaw):
-        raise ModelError(Fault("", 0, 0, "", "a function in Python drives by its `value`, rate and acceleration"))
+        raise ModelError(Fault.at("", "a function in Python drives by its `value`, rate and acceleration"))
     if isinstance(function, int | float):
         return partial(_constant, float(function))
     return partial(_evaluated, function)
@@ -221,10 +221,10 @@ def _evaluated(function: TimeFunction, t: Array) -> Array:
         try:
             out[k] = value(float(each))
         except ExpressionError as fault:
-            raise ModelError(Fault("", 0, 0, "", f"there is no value at t = {each:.6g} s: {fault}")) from None
+            raise ModelError(Fault.at("", f"there is no value at t = {each:.6g} s: {fault}")) from None
     if not np.isfinite(out).all():
         when = float(t[~np.isfinite(out)][0])
-        raise ModelError(Fault("", 0, 0, "", f"there is no finite value at t = {when:.6g} s"))
+        raise ModelError(Fault.at("", f"there is no finite value at t = {when:.6g} s"))
     return out
 
 

@@ -61,7 +61,7 @@ def law_address(law: PythonLaw, *, motion: bool) -> int:
     except CompilationError as problem:
         where = f" in {law.file}" if law.file else ""
         message = f"the law `{law.function}`{where} cannot be compiled: {_telling(problem)}"
-        raise ModelError(Fault("", 0, 0, "", message)) from problem
+        raise ModelError(Fault.at("", message)) from problem
     _twins[address] = _dual_law_texts(law, motion=motion)
     return address
 
@@ -174,5 +174,5 @@ def _real_address(text: str) -> int:
         return address_of_law(text, LAW)
     except CompilationError as problem:
         if problem.kind == NO_COMPILER:
-            raise ModelError(Fault("", 0, 0, "", f"Python laws are compiled, and {problem}")) from None
+            raise ModelError(Fault.at("", f"Python laws are compiled, and {problem}")) from None
         raise

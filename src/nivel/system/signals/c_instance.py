@@ -209,4 +209,4 @@ def _unload(library: Any) -> None:
 
 
 def _fault(facts: CFacts, key: str, message: str) -> ModelError:
-    return ModelError(Fault("", 0, 0, f"control.{facts.block}.{key}", message))
+    return ModelError(Fault.at(f"control.{facts.block}.{key}", message))

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.files.fmu_file import MOST_BYTES, UnitDescription, read_description, unknown_variables, unpack
 from nivel.files.sources import read_bytes
 from nivel.kernels.core.block import Handle
@@ -107,13 +107,12 @@ class FmuInstance:
         self._content = read_bytes(facts.file)
         self.description: UnitDescription = read_description(self._content, facts.file)
         faults = [
-            Fault("", 0, 0, f"control.{facts.block}.{key}", message)
+            Fault.at(f"control.{facts.block}.{key}", message)
             for key, message in unknown_variables(
                 self.description, facts.inputs, facts.outputs, [n for n, _ in facts.parameters]
             )
         ]
-        if faults:
-            raise ModelError(faults)
+        refuse(faults)
         self._instance, self._library = NOTHING, None
         self._kept: list[Any] = []
         self.record = self._record()
@@ -332,9 +331,7 @@ class FmuInstance:
 
     def _fault(self, what: str) -> ModelError:
         said = f": {self.messages[-1]}" if self.messages else ""
-        return ModelError(
-            Fault("", 0, 0, f"control.{self.facts.block}.file", f"the FMU `{self.facts.file}` {what}{said}")
-        )
+        return ModelError(Fault.at(f"control.{self.facts.block}.file", f"the FMU `{self.facts.file}` {what}{said}"))
 
 
 def _variadic(library: Any, name: str, result: Any) -> Any:
@@ -374,7 +371,7 @@ def _loaded(content: bytes, description: UnitDescription, facts: FmuFacts) -> tu
         message = (
             f"the library of the FMU `{facts.file}` cannot be loaded: {str(problem).replace(str(path), path.name)}"
         )
-        raise ModelError(Fault("", 0, 0, f"control.{facts.block}.file", message)) from None
+        raise ModelError(Fault.at(f"control.{facts.block}.file", message)) from None
 
 
 def _binary_in(folder: Path, description: UnitDescription, facts: FmuFacts) -> Path:
@@ -388,4 +385,4 @@ def _binary_in(folder: Path, description: UnitDescription, facts: FmuFacts) -> P
     there = sorted(each.name for each in (folder / "binaries").glob("*")) if (folder / "binaries").is_dir() else []
     has = f"it has those of {', '.join(there)}" if there else "it has none"
     message = f"the FMU `{facts.file}` has no binary for {names[-1]}; {has}"
-    raise ModelError(Fault("", 0, 0, f"control.{facts.block}.file", message))
+    raise ModelError(Fault.at(f"control.{facts.block}.file", message))

@@ -201,4 +201,4 @@ class UnitProcess:
         return f"crashed (exit code {code})"
 
     def _fault(self, what: str) -> ModelError:
-        return ModelError(Fault("", 0, 0, f"control.{self.facts.block}.file", f"{self._name} {what}"))
+        return ModelError(Fault.at(f"control.{self.facts.block}.file", f"{self._name} {what}"))

@@ -74,7 +74,7 @@ def _output(builder: SystemBuilder, sensor: Sensor, name: str) -> int:
         return builder.outputs.index(name)
     except ValueError:
         message = f"this force has no `{sensor.quantity}`"
-        raise ModelError(Fault("", 0, 0, f"sensors.{sensor.name}.quantity", message)) from None
+        raise ModelError(Fault.at(f"sensors.{sensor.name}.quantity", message)) from None
 
 
 def _of_marker(builder: SystemBuilder, sensor: Sensor, vectors: dict[str, int]) -> list[int]:

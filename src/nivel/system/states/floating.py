@@ -101,7 +101,7 @@ def _away(owner: str, body: str, point: Array, bending: Bending) -> Fault:
         f"is at ({place(point)}) m in the axes of the flexible body `{body}`, where it has no interface; they are {there or 'none'}: "
         f"name one of them as `interface`, move it there, or add an interface to the model and reduce it again"
     )
-    return Fault("", 0, 0, owner, message)
+    return Fault.at(owner, message)
 
 
 def with_modes(

@@ -1,4 +1,4 @@
-"""The page of a comparison: which method is worth what, in one HTML file with everything in it."""
+"""The page of a comparison: which method is worth what, in one HTML file, with the work–precision diagram."""
 
 from __future__ import annotations
 

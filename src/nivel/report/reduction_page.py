@@ -1,4 +1,4 @@
-"""The page of a reduction: what the flexible body is worth, in one HTML file with everything in it."""
+"""The page of a reduction: what the flexible body is worth, in one HTML file, with still pictures of its modes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The page of a study: its variants side by side, what the outputs depend on, and how many are within limits, in one HTML file."""
+"""The page of a study: its variants side by side, what the outputs depend on, and how many are within limits, in one HTML file.
+
+Of a search also the values that it found, how certain they are, and how it came to them.
+"""
 
 from __future__ import annotations
 

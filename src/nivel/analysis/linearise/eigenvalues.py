@@ -8,6 +8,16 @@ size, so that no unit and no fast motion beside a slow one decides what is zero.
 An eigenvalue with the vectors l, r of its block is known to |l|ᵀ |δA| |r| / |lᴴ r|, for entries that are known to δA, and a backward error
 ε ‖A‖ of the method in balanced coordinates (Golub, Van Loan, Matrix Computations, 4th edition, §7.2.2), at most to √(|δA| ‖A‖), as two
 equal ones with one vector are: the slow motions of a stiff machine have the round-off of its fastest.
+
+Basis of undamped vibrations, in which linear equations are graded: the stiffness of each motion stands beside its own mass.
+
+States (s, w, x) = T (η, ζ, …). The first columns of T are the vibrations Φ of K φ = ω² M φ, with what of K is symmetrical, on the motions
+that nothing holds: s = Z Φ η, w = Z Φ ζ. Behind them stand what drivers as inputs prescribe, and the states of elements. With Φᵀ M Φ = 1
+
+    η̇ = ζ + …        ζ̇ = -(diag ω² + Φᵀ K_a Φ) η - Φᵀ D Φ ζ - …
+
+where K_a is what of the stiffness is not symmetrical. A stiffness is none where it is less than the round-off of the terms that make it,
+|Φ|ᵀ |K| |Φ|: a thin strip keeps its slow vibration beside fast ones, however far apart these are.
 """
 
 from __future__ import annotations

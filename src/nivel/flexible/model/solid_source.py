@@ -1,4 +1,4 @@
-"""Solids as model files say them: meshed, assembled with scikit-fem."""
+"""Solids as model files say them: parts added and cut, or a STEP file; meshed by gmsh, assembled with scikit-fem."""
 
 from __future__ import annotations
 

@@ -118,7 +118,8 @@ def _texts(machine: Exported) -> dict[str, Any]:
         "inner": _lines(f"{{{word},{byte}}}" for word, byte in image.inner.items()),
         "outer": _lines(f"{{{word},{machine.codes.index(symbol)}}}" for word, symbol in image.outer.items()),
         "output_places": _lines(str(each.place) for each in machine.outputs),
-        "input_places": _lines(_input_rows(machine)) or "{0, 0, 0, 0}",
+        "input_places": _lines(f"{{{each.kind}, {each.value}, {each.low!r}, {each.high!r}}}" for each in machine.inputs)
+        or "{0, 0, 0, 0}",
         "names": _lines(map(_quoted, names)) or '""',
         "failure_table": _lines(_failure_rows(machine), 1),
         "numbers": _lines((f"  {value} /* {key} */" for key, value in machine.numbers.items()), 1),
@@ -131,10 +132,6 @@ def _texts(machine: Exported) -> dict[str, Any]:
         "input_names": _lines(_quoted(each.name) for each in machine.inputs),
         "input_ranges": _lines(f"{{{each.low!r}, {each.high!r}}}" for each in machine.inputs),
     }
-
-
-def _input_rows(machine: Exported) -> Iterable[str]:
-    return (f"{{{each.kind}, {each.value}, {each.low!r}, {each.high!r}}}" for each in machine.inputs)
 
 
 def _failure_rows(machine: Exported) -> Iterable[str]:

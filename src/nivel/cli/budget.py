@@ -15,6 +15,7 @@ from nivel.cli.options import (
     quiet_option,
     separated,
     setting_options,
+    tick_option,
 )
 from nivel.errors import Fault, ModelError
 from nivel.lazy import nivel
@@ -29,12 +30,7 @@ if TYPE_CHECKING:
 @override_option
 @allow_code_option
 @setting_options(StepSettingsDict, "step", "formulation", "coordinates", "stabilisation")
-@click.option(
-    "--tick",
-    type=float,
-    metavar="SECONDS",
-    help="Time between two readings of the inputs: a whole number of steps. Default: 1 ms, or one step if that is longer.",
-)
+@tick_option
 @click.option(
     "--integrators",
     metavar="NAMES",

@@ -20,6 +20,7 @@ from nivel.cli.options import (
     override_option,
     quiet_option,
     setting_options,
+    tick_option,
 )
 from nivel.errors import ModelError
 from nivel.lazy import nivel
@@ -40,12 +41,7 @@ TOLD: Final = 1.0  # s in which pages hear that the solver has ended
 @override_option
 @allow_code_option
 @setting_options(StepSettingsDict, "step", "integrator", "formulation", "coordinates", "stabilisation")
-@click.option(
-    "--tick",
-    type=float,
-    metavar="SECONDS",
-    help="Time between two readings of the inputs: a whole number of steps. Default: 1 ms, or one step if that is longer.",
-)
+@tick_option
 @click.option(
     "--record",
     type=click.Path(dir_okay=False),

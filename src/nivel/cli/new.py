@@ -36,8 +36,12 @@ def command(name: Path, force: bool, with_schema: bool) -> None:
         text = f"# yaml-language-server: $schema={SCHEMA_NAME}\n{text}"
     _write(target, text, force)
     if with_schema:
-        _write(target.with_name(SCHEMA_NAME), _schema_text(), force=True)
-        _write(target.with_name(STUDY_SCHEMA_NAME), _study_schema_text(), force=True)
+        _write(target.with_name(SCHEMA_NAME), json.dumps(nivel.files.schema(), indent=1) + "\n", force=True)
+        _write(
+            target.with_name(STUDY_SCHEMA_NAME),
+            json.dumps(nivel.files.study_file.study_schema(), indent=1) + "\n",
+            force=True,
+        )
     click.echo(f"{target} is written; run it with: nivel run {target}", err=True)
 
 
@@ -59,15 +63,7 @@ def new_machine(name: str) -> str:
     return text
 
 
-def _schema_text() -> str:
-    return json.dumps(nivel.files.schema(), indent=1) + "\n"
-
-
 def _write(target: Path, text: str, force: bool) -> None:
     if target.exists() and not force:
         raise ModelError(f"{target} exists already; use --force to overwrite it, or another name")
     nivel.files.target.write_file(target, "file", text)
-
-
-def _study_schema_text() -> str:
-    return json.dumps(nivel.files.study_file.study_schema(), indent=1) + "\n"

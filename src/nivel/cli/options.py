@@ -73,6 +73,13 @@ json_option = click.option("--json", "as_json", is_flag=True, help="Print the re
 quiet_option = click.option("--quiet", is_flag=True, help="Print errors only.")
 
 
+tick_option = click.option(
+    "--tick",
+    type=float,
+    metavar="SECONDS",
+    help="Time between two readings of the inputs: a whole number of steps. Default: 1 ms, or one step if that is longer.",
+)
+
 resume_option = click.option("--resume", is_flag=True, help="Go on with an interrupted study.")
 
 

@@ -233,13 +233,9 @@ def _value(value: Any, prefix: str) -> Any:
                 "give a `prefix` without it"
             )
         case Expression() | Table() | PythonLaw():
-            return substituted(value, lambda path: _prefixed(path, prefix))
+            return substituted(value, lambda path: same(f"{prefix}{path}"))
         case Record():
             return _record(value, prefix, {})
         case tuple() if any(isinstance(each, Expression | Table | PythonLaw | Record) for each in value):
             return tuple(_value(each, prefix) for each in value)
     return value
-
-
-def _prefixed(path: str, prefix: str) -> Linear:
-    return same(f"{prefix}{path}")

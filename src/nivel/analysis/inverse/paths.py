@@ -187,7 +187,7 @@ class PathFollower:
         e = self.task.places[k] - place
         if self.task.axes is None:
             return e
-        return np.concatenate([e, self.size * _rotation_vector(self.task.axes[k] @ axes.T)])
+        return np.concatenate([e, self.size * Rotation.from_matrix(self.task.axes[k] @ axes.T).as_rotvec()])
 
     def _jacobian(self, q: Array) -> Array:
         J = self.mechanics.jacobian(self.task.point, q)
@@ -197,11 +197,6 @@ class PathFollower:
         at, near = self._values(q), 1e-9 * self.range
         held = (at - self.task.low <= near) | (self.task.high - at <= near)
         return tuple(name for name, each in zip(self.mechanics.names, held, strict=True) if each)
-
-
-def _rotation_vector(A: Array) -> Array:
-    """(3,) [rad] the turn of a rotation matrix."""
-    return Rotation.from_matrix(A).as_rotvec()
 
 
 def task_for(

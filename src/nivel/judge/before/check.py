@@ -295,7 +295,7 @@ def check(plan: Plan) -> Check:
         drivers=tuple(driver_in_words(driver) for driver in machine.drivers),
         forces=tuple(force_in_words(machine, force) for force in machine.forces),
         hydraulics=_hydraulics(machine, system),
-        pressures=_pressures(system),
+        pressures={node.variable: float(record.circuit.pressure[k]) for k, node in enumerate(system.nodes)},
         inputs=tuple(input_in_words(each) for each in machine.inputs),
         states=tuple(state_in_words(state) for state in machine.states),
         control=tuple(block_in_words(block) for block in machine.control),
@@ -360,11 +360,6 @@ def _without_slopes(machine: MachineRecord) -> Iterator[str]:
             f"{names} {has} no derivatives by hand: with `extrapolated-euler` every step computes those of the whole machine, which "
             "takes longer for large machines; other integrators take as long as without"
         )
-
-
-def _pressures(system: System) -> dict[str, float]:
-    """Pressures of nodes at the start [Pa], by the name of the result variable."""
-    return {node.variable: float(system.record.circuit.pressure[k]) for k, node in enumerate(system.nodes)}
 
 
 def _cut(methods: Methods) -> tuple[str, ...]:

@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import xarray
 
 from nivel.errors import Fault, ModelError, refuse
 from nivel.extras import needed
 from nivel.files.target import write_file
+from nivel.lazy import xarray
 from nivel.results.frames.contents import name_in_file, name_of
 from nivel.results.frames.stored import DAMAGE
 from nivel.words.arguments import checked_arguments
@@ -22,7 +22,6 @@ from nivel.words.wording import unknown_word
 
 if TYPE_CHECKING:
     import pandas
-    import xarray
 
     from nivel.results.result import Result
 

@@ -4,6 +4,7 @@ values."""
 import numpy as np
 import pytest
 
+import nivel
 from nivel.judge.after.other_elements import other_elements
 from nivel.machine.beams.other_elements import changed, doubled
 from nivel.results.analyses.linear_model import LinearModel
@@ -385,3 +386,18 @@ def test_a_ring_is_not_halved_beyond_a_quarter_turn():
     pair = other_elements(machine(ring).record)
     assert pair is not None
     assert pair.words == "twice as many"
+
+
+def test_a_run_that_rests_in_equilibrium_is_compared_with_its_deflection(tmp_path):
+    """Nothing moves in the run; the tip of a cantilever stands F l³/(3 E I) below where it is drawn, 0.3 % off by its elements."""
+    path = tmp_path / "cantilever.yaml"
+    path.write_text(
+        "format: 1\nbeams:\n  rod: {from: [0, 0, 0], to: [1, 0, 0], section: {type: rectangle, width: 2 cm, height: 2 cm}, elements: 8,\n"
+        "    damping: 1 ms, material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850}}\n"
+        "joints: {wall: {type: fixed, bodies: [ground, rod.start], point: [0, 0, 0]}}\n"
+        "forces: {load: {type: force, body: rod.end, vector: [0, -50, 0]}}\nsimulation: {duration: 20 ms, start: equilibrium}\n"
+    )
+    result = nivel.load(path).simulate(verify=True)
+    deflection = 50.0 / (3.0 * 210e9 * 0.02**4 / 12.0)
+    assert abs(result["rod.end.position.y"].values + deflection).max() < 0.01 * deflection
+    assert item(result.trust) == "green"

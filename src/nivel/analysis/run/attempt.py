@@ -20,10 +20,12 @@ from nivel.judge.after.checks.accuracy import factor
 from nivel.judge.after.other_elements import Compared, Pair, element_errors, other_elements
 from nivel.judge.after.subject import Run, run_of
 from nivel.lazy import dataclass, replace
+from nivel.machine.machine_record import MachineRecord
 from nivel.results.estimate import estimate_errors
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
+from nivel.system.beams.nodes import with_nodes
 from nivel.system.system import Array
 
 
@@ -47,11 +49,19 @@ class Found:
     verified: Verified | None
     why: str
 
-    def compared(self, result: Result) -> Compared:
-        """What follows for a result."""
+    def compared(self, machine: MachineRecord, result: Result) -> Compared:
+        """What follows for a result of a machine."""
         other = self.verified.result if self.verified is not None else None
         errors = element_errors(result, other, self.pair.factor) if other is not None else None
-        return Compared(pair=self.pair, result=other, errors=errors, why=self.why)
+        return Compared(pair=self.pair, result=other, errors=errors, why=self.why, drawn=_drawn(machine, result))
+
+
+def _drawn(machine: MachineRecord, result: Result) -> dict[str, Array] | None:
+    """Where nodes of beams stand (3,) [m] before an equilibrium at the start loads them; None where they are not placed as drawn."""
+    if machine.simulation.start != "equilibrium" or any(joint.start for joint in machine.joints):
+        return None
+    names = result.coordinates["body"]
+    return {body.name: np.array(body.position) for body in with_nodes(machine).bodies if body.name in names}
 
 
 @dataclass(frozen=True)
@@ -100,7 +110,7 @@ class Attempt:
         if self.verified is not None:
             estimate = estimate_errors(self.result, self.verified.result, factor(self.verified.refinement.left))
         run = run_of(self.plan, self.prepared, self.finished, self.result)
-        elements = None if self.found is None else self.found.compared(self.result)
+        elements = None if self.found is None else self.found.compared(self.plan.machine, self.result)
         return replace(run, second=self.verified, estimate=estimate, elements=elements)
 
 

@@ -52,7 +52,10 @@ OF_STEPS = frozenset(
 # Lines on what was not examined, or how a run ended.
 OF_NOTHING = frozenset({"verified", "unexamined", "outcome"})
 # A failure of steps, which another method may not have.
-STATUSES = (Status.STEP_TOO_SMALL, Status.NOT_FINITE, Status.NOT_CONVERGED, Status.CRAWLS, Status.OUT_OF_REACH)
+STATUSES = (
+    *(Status.STEP_TOO_SMALL, Status.NOT_FINITE, Status.NOT_CONVERGED),
+    *(Status.CRAWLS, Status.OUT_OF_REACH, Status.CONTRADICTION),
+)
 OF_FIXED_STEPS: Final = "rk4"
 FAILED: Final = "no method is named, and steps that follow the motion come to no end"
 # Fixed steps are divided by so much at most; the error is to be this much below what is green.

@@ -346,7 +346,10 @@ def _drift(stop: Stop) -> Told:
         f"{named_row(system, stop.number)} is open by {system.record.constraints.C[stop.number]:.3g} {unit_of(system, stop.number)}: what "
         f"steps of {stop.step:.3g} s miss of this motion has added up"
     )
-    advice = f"Try --step {stop.step / 10:.3g}, an integrator of higher order, or --stabilisation direct, which closes all constraints."
+    advice = (
+        f"Try --step {stop.step / 10:.3g}, or --stabilisation direct, which closes constraints. If it is a linkage with more joints than "
+        f"it needs, beside a position where its motion branches, --coordinates absolute or --integrator rk4 pass it."
+    )
     return message, advice
 
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 from nivel.analysis.assembly.instant import Instant
-from nivel.analysis.inverse.actuators import Actuation
+from nivel.analysis.inverse.actuators import Actuation, driven_alone
 from nivel.analysis.kinematics.singular import MovingState, moving_states
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.progress.log import Listener
@@ -107,12 +107,8 @@ ALIKE = 0.999
 
 def without_actuators(machine: MachineRecord, actuation: Actuation) -> MachineRecord:
     """The machine without the motors that stand for actuators, and without the drivers that do not hold."""
-    taken = {each.motor for each in actuation.actuators}
-    return machine.replace(
-        forces=tuple(force for force in machine.forces if force.name not in taken),
-        drivers=tuple(driver for driver in machine.drivers if driver.name in actuation.hold),
-        sensors=tuple(each for each in machine.sensors if each.force not in taken),
-    )
+    holding = tuple(driver for driver in machine.drivers if driver.name in actuation.hold)
+    return driven_alone(machine, actuation).replace(drivers=holding)
 
 
 def inverse(methods: Methods, actuation: Actuation, motion: Result, *, listener: Listener | None = None) -> Efforts:

@@ -6,7 +6,6 @@ import json
 import time
 from collections.abc import Callable, Iterator
 from os import PathLike
-from typing import Any
 
 import numpy as np
 
@@ -60,19 +59,8 @@ def statics_attributes(
 ) -> dict[str, str | float | int]:
     """The attributes of the result, see `nivel.integrate.loop.sink.Header`; the coordinates are those that were taken."""
     taken = "relative" if len(prepared.motion.system.record.tree.node) else "absolute"
-    shown: Any = _Shown({**settings.as_dict(), "coordinates": taken})
-    attributes = run_attributes(machine, source, prepared, shown)
-    return {**attributes, "analysis": "statics"}
-
-
-@dataclass(frozen=True)
-class _Shown:
-    """Settings as `run_attributes` asks for them."""
-
-    settings: dict[str, object]
-
-    def as_dict(self) -> dict[str, object]:
-        return self.settings
+    shown = json.dumps({**settings.as_dict(), "coordinates": taken})
+    return {**run_attributes(machine, source, prepared, settings), "settings": shown, "analysis": "statics"}
 
 
 # A state whose loads are this many times what round-off makes of them, or less, has none.

@@ -416,6 +416,8 @@ EVERYTHING = {
             "static_friction": 0.5,
             "friction_model": "stiction",
             "friction_transition_speed": "1 mm/s",
+            "rolling_resistance": "1 mm",
+            "patch_radius": "2 cm",
             "friction_work": True,
             "surface_velocity": ["0.1*time", "1 mm/s", 0],
             "surface_spin": "2 rpm",

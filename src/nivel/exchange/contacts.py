@@ -191,7 +191,11 @@ def _lowest(solid: Solid, normal: Array, mechanism: Mechanism, drawing: Drawing)
 
 
 def _force(touch: Touch, pair: list[Solid], markers: list[str], areas: dict[str, float]) -> dict[str, Any]:
-    common = {"damping": number(touch.damping), **({"friction": number(touch.friction)} if touch.friction else {})}
+    common = {"damping": number(touch.damping)}
+    if touch.friction:  # of an evenly pressed disc the lever of a spin is 2/3 of the radius
+        radius = 1.5 * touch.spin / touch.friction
+        given = {"friction": touch.friction, "patch_radius": radius, "rolling_resistance": touch.roll}
+        common |= {key: number(value) for key, value in given.items() if value}
     stiffness = float(f"{touch.stiffness:.6g}")
     for solid, own, other in zip(pair, markers, markers[::-1], strict=True):
         if solid.look.kind == "plane":

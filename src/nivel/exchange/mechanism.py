@@ -208,13 +208,16 @@ class Solid:
 
 @dataclass(frozen=True)
 class Touch:
-    """Two solids by name that touch. stiffness [N/m] : of a point; damping [s/m] : factor of the force by the speed of approach."""
+    """Two solids by name that touch. stiffness [N/m] : of a point; damping [s/m] : factor of the force by the speed of approach. spin,
+    roll [m] : moments of friction by the normal force."""
 
     first: str
     second: str
     friction: float
     stiffness: float
     damping: float
+    spin: float = 0.0
+    roll: float = 0.0
 
 
 @dataclass

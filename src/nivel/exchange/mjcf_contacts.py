@@ -21,7 +21,7 @@ BISECTIONS: Final = 60
 GRAVITY: Final = 9.81  # m/s²: the load where the model has no weight
 CLIP: Final = 1e-4  # impedances are kept by so much from 0 and 1, as in MuJoCo
 MARGINS, DIRECTIONS = "margins of contacts", "friction of contacts by direction"
-TURNS: Final = "friction of contacts against spinning and rolling"
+TURNS: Final = "friction of contacts against rolling has a limit of its own, that of MuJoCo shares one with sliding"
 
 
 def read_contacts(
@@ -101,8 +101,10 @@ def _touch(m: Any, i: int, j: int, pair: int | None, names: tuple[str, str], mec
         mixed = ref[0] > 0.0 and other[0] > 0.0
         ref = share * ref + (1.0 - share) * other if mixed else np.minimum(ref, other)
         imp = share * m.geom_solimp[i] + (1.0 - share) * m.geom_solimp[j]
-    if condim > 3 and np.any(turning):
-        mechanism.notes.leave(TURNS, " and ".join(names), acts=True)
+    slide = float(friction[0]) if condim > 1 else 0.0
+    spin, roll = float(turning[0]) * (condim > 3), float(turning[1]) * (condim > 4)
+    if roll:
+        mechanism.notes.change(TURNS, " and ".join(names))
     margins = (m.pair_margin[pair],) if pair is not None else (m.geom_margin[i], m.geom_margin[j])
     if np.any(margins):
         mechanism.notes.leave(MARGINS, " and ".join(names), acts=True)
@@ -112,7 +114,7 @@ def _touch(m: Any, i: int, j: int, pair: int | None, names: tuple[str, str], mec
     gravity = float(np.linalg.norm(m.opt.gravity)) or GRAVITY
     weight = max(gravity, w * _load(m, (i, j)) * gravity)
     stiffness, damping = _softness(ref, imp, w, float(m.opt.timestep), weight)
-    return Touch(*names, float(friction[0]) if condim > 1 else 0.0, stiffness, damping)
+    return Touch(*names, slide, stiffness, damping, spin, roll)
 
 
 def _load(m: Any, geoms: tuple[int, int]) -> float:

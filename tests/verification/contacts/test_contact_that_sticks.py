@@ -490,6 +490,91 @@ def test_statics_says_that_friction_of_contacts_is_none():
     assert any("friction of contacts exerts no force at rest (touch)" in item.text for item in result.trust.items)
 
 
+# --- moments ---
+ARM, ROLLER = 2e-3, 0.1
+
+
+def rolling_ball(slope=0.0, speed=0.0, spin=0.0, **more):
+    """A ball that rolls without slip down the slope along X."""
+    overlap = MASS * G * np.cos(slope) / STIFFNESS
+    body = {"mass": MASS, "inertia": [0.4 * MASS * ROLLER**2] * 3, "shape": {"type": "sphere", "radius": ROLLER}}
+    motion = {"velocity": [speed, 0, 0], "angular_velocity": [0, speed / (ROLLER - overlap), spin]}
+    return {
+        "gravity": [G * np.sin(slope), 0, -G * np.cos(slope)],
+        "bodies": {"ball": {**body, "position": [0, 0, ROLLER - overlap], **motion}},
+        "markers": {"floor": {"body": "ground", "axis": [0, 0, 1]}},
+        "forces": {"touch": touching(0.8, body="ball", plane="floor", friction_work=True, **more)},
+    }
+
+
+@pytest.mark.parametrize(("integrator", "coordinates"), [("dopri5", "absolute"), ("generalised-alpha", "relative")])
+def test_a_ball_with_rolling_resistance_stops_after_its_way(integrator, coordinates):
+    """7/5 m a = b N/R: v²/(2 a) with a = 5/7 g b/R; all of 7/10 m v² is heat. The overlap makes R smaller by 2e-4 of it."""
+    speed, a = 0.4, 5 / 7 * G * ARM / ROLLER
+    r = simulate(
+        rolling_ball(speed=speed, rolling_resistance=ARM),
+        integrator=integrator,
+        coordinates=coordinates,
+        step=1e-3,
+        duration=3.5,
+    )
+    place = r.array("ball.position")[:, 0]
+    rolls = r.time < 0.99 * speed / a
+    np.testing.assert_allclose(place[rolls], speed * r.time[rolls] - 0.5 * a * r.time[rolls] ** 2, rtol=1e-3)
+    assert place[-1] == pytest.approx(speed**2 / (2 * a), rel=2e-3)
+    assert np.ptp(place[r.time > 1.1 * speed / a]) < 1e-6
+    assert r["force.touch.friction_work"][-1] == pytest.approx(0.7 * MASS * speed**2, rel=1e-3)
+    assert r.trust.verdict == "green"
+
+
+def test_a_ball_rests_on_a_slope_up_to_the_arm_by_the_radius():
+    steep, flat = (
+        simulate(rolling_ball(slope=x * ARM / ROLLER, rolling_resistance=ARM), integrator="dopri5", duration=1)
+        for x in (2.0, 0.9)
+    )
+    assert abs(flat.array("ball.position")[-1, 0]) < 1e-6
+    fall = 5 / 7 * G * (np.sin(2 * ARM / ROLLER) - ARM / ROLLER * np.cos(2 * ARM / ROLLER))
+    assert steep.array("ball.position")[-1, 0] == pytest.approx(0.5 * fall, rel=1e-3)
+
+
+def test_a_patch_radius_brakes_spin_as_an_evenly_pressed_disc_does():
+    """M = 2/3 R μ N: a ball from ω rests after J ω/M. A cylinder on its end has this by itself: ω R/(4/3 μ g) = 1.274 s."""
+    r = simulate(rolling_ball(spin=20.0, patch_radius=0.03), integrator="dopri5", step=1e-3, duration=1.0)
+    moment, inertia = 2 / 3 * 0.03 * 0.8 * MASS * G, 0.4 * MASS * ROLLER**2
+    rates = r.array("ball.angular_velocity")[:, 2]
+    early = r.time < 0.99 * inertia * 20.0 / moment
+    np.testing.assert_allclose(rates[early], 20.0 - moment / inertia * r.time[early], atol=2e-4)
+    assert abs(rates[-1]) < 1e-9
+    shape = {"type": "cylinder", "radius": 0.1, "length": 0.02, "along": "z"}
+    body = {
+        "mass": MASS,
+        "position": [0, 0, 0.01 - MASS * G / (4 * STIFFNESS)],
+        "shape": shape,
+        "angular_velocity": [0, 0, 50],
+    }
+    disc = {**box(0.3), "bodies": {"box": body}}
+    rates = (r := simulate(disc, integrator="dopri5", step=1e-3, duration=1.35)).array("box.angular_velocity")[:, 2]
+    end = 50 * 0.1 / (4 / 3 * 0.3 * G)
+    assert end == pytest.approx(1.274, abs=5e-4)
+    np.testing.assert_allclose(
+        rates[r.time < 0.99 * end], 50 * (1 - r.time[r.time < 0.99 * end] / end), rtol=1e-3, atol=1e-2
+    )
+    assert abs(rates[-1]) < 1e-9
+
+
+def test_moments_of_contact_need_friction_that_sticks():
+    for more in ({"rolling_resistance": 0.01}, {"patch_radius": 0.01}):
+        with pytest.raises(ModelError, match="belongs to `friction` with `friction_model: stiction`"):
+            machine(
+                {
+                    **box(0.3),
+                    "forces": {
+                        "touch": touching(0.3, body="box", plane="floor", friction_transition_speed=1e-3, **more)
+                    },
+                }
+            )
+
+
 # --- shares ---
 BALL = {"type": "sphere", "radius": 0.05}
 

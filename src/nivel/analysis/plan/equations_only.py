@@ -18,6 +18,8 @@ def with_smooth_contacts(machine: MachineRecord) -> MachineRecord:
         force.replace(
             friction_model="coulomb",
             static_friction=None,
+            rolling_resistance=0.0,
+            patch_radius=None,
             friction_transition_speed=force.friction_transition_speed or TRANSITION,
         )
         if isinstance(force, Contact) and force.sticks

@@ -14,6 +14,7 @@ from nivel.machine.core.coefficient import (
     DampingPerLoad,
     Exponent,
     FoundationModulus,
+    NotNegativeLength,
     NotNegativeNumber,
     PoissonRatio,
     PositiveNumber,
@@ -27,7 +28,7 @@ from nivel.machine.core.record import GROUND, BodyName, Record
 from nivel.machine.given import Field, Given, ManyNames, Maybe, OneRecord, TwoNames, TwoNumbers, TwoRecords
 from nivel.machine.laws.time_function import ContactForce, SurfaceSpin, SurfaceVelocity, ThreeFunctions
 from nivel.machine.power_stiffness import PowerStiffness
-from nivel.machine.units.quantity import Whole, listed
+from nivel.machine.units.quantity import PositiveLength, Whole, listed
 
 HERTZ: Final = 1.5  # exponent of two elastic spheres
 HULLS: Final = ("box", "cylinder", "extrusion", "mesh")  # that touch each other, with their convex hulls
@@ -149,6 +150,14 @@ class Contact(ForceElement):
     friction_transition_speed: Maybe[PositiveSpeed] = Field(
         default=None, description="of `friction_model: coulomb`; stiction makes no use of it in motion"
     )
+    rolling_resistance: NotNegativeLength = Field(
+        default=0.0, description="lever arm b of a moment up to b · normal force that brakes rolling"
+    )
+    patch_radius: Maybe[PositiveLength] = Field(
+        default=None,
+        description="of an evenly pressed disc whose friction brakes spinning, by up to friction · normal force · 2/3 of it",
+        absent="by the points that touch; none of a single one",
+    )
     friction_work: bool = Field(
         default=False, description="the heat of friction since the start is an output too, and a state of the run"
     )
@@ -196,8 +205,9 @@ class Contact(ForceElement):
             yield superfluous("surface_spin", "belongs to a `plane`; a body that turns has a joint and a driver")
         if self.friction_work and not self.friction:
             yield superfluous("friction_work", "belongs to `friction`, and none is given")
-        if self.static > self.friction and not self.sticks:
-            yield superfluous("static_friction", "belongs to `friction_model: stiction`")
+        for name in ("static_friction", "rolling_resistance", "patch_radius"):
+            if getattr(self, name) and not self.sticks and (name != "static_friction" or self.static > self.friction):
+                yield superfluous(name, "belongs to `friction` with `friction_model: stiction`")
 
     def _problems_of_foundation(self) -> Iterator[Problem]:
         if self.bodies is None:

@@ -24,7 +24,7 @@ from nivel.elements.contacts.shapes import (
     shape_marker,
 )
 from nivel.elements.forces.actuators import Stop
-from nivel.elements.forces.friction import add_friction_work, add_patch, rub_off
+from nivel.elements.forces.friction import ROUND_FACE, add_friction_work, add_patch, rub_off
 from nivel.elements.kind import Kind
 from nivel.elements.output import add_outputs
 from nivel.kernels.elements.touch import DEPTH, LOST, RATE
@@ -32,7 +32,7 @@ from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE
 from nivel.lazy import dataclass
-from nivel.machine.bodies.shape import Capsule, Ellipsoid, Sphere
+from nivel.machine.bodies.shape import Capsule, Cylinder, Ellipsoid, Sphere
 from nivel.machine.bodies.solids import length
 from nivel.machine.bodies.touching import Touching
 from nivel.machine.laws.python_law import PythonLaw
@@ -64,7 +64,9 @@ def add_contact(builder: SystemBuilder, force: Contact) -> None:
         law = builder.function(force.law, symbols, switching=False)
     patch = [NONE, 0, 0]
     if force.sticks:
-        patch = add_patch(builder, force, (markers[0], markers[1]), first, points.count > 1)
+        # points of a cylinder are on its rims, and stand for its faces
+        share = ROUND_FACE if isinstance(bodies[0].shape, Cylinder) else 1.0
+        patch = add_patch(builder, force, (markers[0], markers[1]), first, points.count > 1, share)
     frame = markers[1] if force.bodies is None else builder.frame(bodies[1].body)
     columns = [first, *markers, points.count, law, *patch, *_surface(builder, force, frame), *points.columns]
     numbers = law_numbers(force, _stiffness(builder.machine, force), points.radius)

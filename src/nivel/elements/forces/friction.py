@@ -213,17 +213,29 @@ def add_friction(builder: SystemBuilder, force: Friction) -> None:
     builder.friction_names.append(force.name)
 
 
-def add_patch(builder: SystemBuilder, contact: Contact, ends: tuple[int, int], output: int, spins: bool) -> list[int]:
-    """Frictions along two tangents and, where the contact `spins`, about the normal. ends : markers of the two bodies. output : first one
-    of the contact. Returns the first friction, how many there are, and the first coordinate: see `nivel.kernels.elements.patch`."""
-    first, count = len(builder.frictions), 3 if spins else 2
-    coordinates = [builder.coordinates.add(PATCH, *ends, axis) for axis in range(count)]
+ROUND_FACE = 2.0 / 3.0  # mean lever of a disc that is pressed evenly, by its radius
+
+
+def add_patch(
+    builder: SystemBuilder, contact: Contact, ends: tuple[int, int], output: int, spins: bool, share: float = 1.0
+) -> list[int]:
+    """Frictions along two tangents and, where the contact `spins`, about the normal; then those of resistance to rolling. ends : markers of
+    the two bodies. output : first one of the contact. share : of the radius of gyration of its points that is the lever of a spin. Returns
+    the first friction, how many there are without those of rolling, and the first coordinate: see `nivel.kernels.elements.patch`."""
+    first, count = len(builder.frictions), 3 if spins or contact.patch_radius else 2
+    rolls, axes = contact.rolling_resistance > 0.0, ["slip_x", "slip_y", "spin"][:count]
     work = add_friction_work(builder, contact.name, NONE) if contact.friction_work else NONE
-    for axis, coordinate in enumerate(coordinates):
-        index = [coordinate, friction.PATCH, NONE, int(axis == 2), work, output, *ends, first, count]
-        numbers = [contact.friction, contact.static, 0.0, 1.0, *[0.0] * 3, 1.0, *[0.0] * 5]
-        builder.frictions.append((index, numbers))
-        builder.friction_names.append(f"{contact.name}.{('slip_x', 'slip_y', 'spin')[axis]}")
+    reach = ROUND_FACE * (contact.patch_radius or 0.0)
+    coordinates = []
+    for axis, name in enumerate([*axes, *(["roll_x", "roll_y"] if rolls else [])]):
+        turns = axis >= count
+        coordinates.append(builder.coordinates.add(PATCH, *ends, axis))
+        own = [first + count, 2] if turns else [first, count]
+        index = [coordinates[-1], friction.PATCH, NONE, int(axis >= 2), work, output, *ends, *own]
+        limits = [contact.rolling_resistance] * 2 if turns else [contact.friction, contact.static]
+        levers = [reach, 0.0 if reach else share, float(rolls)] if axis == 0 else [0.0] * 3
+        builder.frictions.append((index, [*limits, 0.0, 1.0, *[0.0] * 3, 1.0, *levers, 0.0, 0.0]))
+        builder.friction_names.append(f"{contact.name}.{name}")
     return [first, count, coordinates[0]]
 
 

@@ -10,7 +10,7 @@ kinetic friction. So which of the two it is follows from the load, and not from 
 accepted state slides on, until kinetic friction stops it, or its effort changes its direction: then static friction may hold it again.
 With several frictions all others are asked to hold first; those that cannot slide, and the others are asked again, until all that are
 left hold.
-The two or three efforts of a patch are one friction: see `nivel.kernels.elements.patch`.
+The two or three efforts of a patch are one friction, and resistance to rolling is one of two moments: see `nivel.kernels.elements.patch`.
 A motion that drivers prescribe no effort stops: while it goes on, F is all that the load gives, against it; while they hold it, F is
 left to them.
 """
@@ -717,8 +717,9 @@ def held_patches(record):
         first = np.int64(friction.columns[k, FIRST])
         reach = real(record.coordinates.value[friction.columns[first, COORDINATE] + 1])
         if is_held(record, first) and (k < first + 2 or reach > 0.0):
+            arm = friction.number[k, KINETIC] if friction.columns[first, ROTATES] == 1 else 1.0
             friction.work[AHEAD, count] = k
-            friction.work[CHANGE, count] = reach if k == first + 2 else 1.0
+            friction.work[CHANGE, count] = reach if k == first + 2 else arm
             count += 1
     return count
 
@@ -798,10 +799,14 @@ def find_shift(record, rank, count):
 def room(record, k):
     """The share of the change in `work` that the patch from friction k on has room for within static friction, 1 at most."""
     friction, q = record.friction, record.friction.columns[k, COORDINATE]
-    reach, limit = real(record.coordinates.value[q + 1]), friction.number[k, STATIC] * real(record.coordinates.value[q])
+    own = friction.number[k, STATIC] if friction.columns[k, ROTATES] == 1 else 1.0
+    reach, limit = (
+        real(record.coordinates.value[q + 1]),
+        friction.number[k, STATIC] * real(record.coordinates.value[q]) / own,
+    )
     square, both, change = -limit * limit, 0.0, 0.0
     for a in range(friction.columns[k, COUNT]):
-        arm = 1.0 if a < 2 else reach
+        arm = own if a < 2 else reach
         effort, more = friction.force[k + a] / arm if arm > 0.0 else 0.0, friction.work[WANTED, k + a]
         square, both, change = square + effort * effort, both + effort * more, change + more * more
     if change == 0.0 or square + 2.0 * both + change <= 0.0:
@@ -863,6 +868,20 @@ def report_patch(machine, k):
 
 
 @stage
+def report_rolling(machine, k):
+    """Outputs of the contact whose resistance to rolling begins with friction k: what it loses, beside its other friction."""
+    record = record_at(machine)
+    friction, coordinates, out = record.friction, record.coordinates, record.outputs.value
+    first, q = friction.columns[k, OUTPUT], friction.columns[k, COORDINATE]
+    power = friction.force[k] * coordinates.rate[q] + friction.force[k + 1] * coordinates.rate[q + 1]
+    record.control.power[1] -= power
+    if friction.columns[k, STATE] != NONE:
+        record.elements.state_rate[friction.columns[k, STATE]] -= power
+    out[first + POWER] += power
+    out[first + LOST] -= power
+
+
+@stage
 def is_held(record, k):
     """Whether the efforts of the patch that begins with friction k are not those of sliding."""
     friction, q = record.friction, record.friction.columns[k, COORDINATE]
@@ -881,7 +900,10 @@ def report(machine, k, force):
     friction, out = record.friction, record.outputs.value
     if friction.columns[k, MODEL] == PATCH:
         if friction.columns[k, FIRST] == k and not is_apart(record, k):
-            report_patch(machine, k)
+            if friction.columns[k, ROTATES] == 1:
+                report_rolling(machine, k)
+            else:
+                report_patch(machine, k)
         return
     first = friction.columns[k, OUTPUT]
     power = force * record.coordinates.rate[friction.columns[k, COORDINATE]]

@@ -11,6 +11,11 @@ The efforts (F, M) on them are limited together: |F|² + (M/r)² ≤ (μ N)², r
 (limit surface: Goyal, Ruina, Papadopoulos 1991; as an ellipsoid: Howe, Cutkosky 1996). In it friction holds; a patch that slides has the
 effort on the surface that loses most power.
 
+For r there may be a number of the contact, or a share of that radius of gyration: points on the rim of a face stand for all of it.
+
+Resistance to rolling is a second patch, behind the first, of two coordinates: turns about both tangents, tᵀ(ω - Ω), with the limit b N,
+b the lever arm by which the normal force is ahead of the middle.
+
 The value of the first coordinate is N and that of the second r, where the surfaces touch; nothing reads them as positions.
 """
 
@@ -23,8 +28,9 @@ from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf, stage
 
-# column of `friction.number` of a patch: velocity of the surface of j over it along the tangent, or its spin
-OVER = 11
+# columns of `friction.number` of a patch: velocity of the surface of j over it along the tangent, or its spin; of its first effort r, or 0
+# where it is this share of the radius of gyration, and 1 where resistance to rolling follows
+OVER, REACH, SHARE, ROLLS = 11, 8, 9, 10
 # cosine of an axis that is too near to the normal
 NEAR_NORMAL = 0.8
 # More iterations than the multiplier of a limit has ever taken, and what it is known to.
@@ -110,25 +116,39 @@ def write_patch(machine, k, count, q, p, pdot, n, t, u, load, reach, surface, ch
         second = (-b[0], -b[1], -b[2], -y[0], -y[1], -y[2])
         write_row(machine, k + a, q + a, first, second, dot(b, slip), dot(b, rest) + dot(cross(W, b), slip))
         friction.number[k + a, OVER] = real(dot(b, surface))
-    coordinates.value[q], coordinates.value[q + 1] = load, reach
+    own = friction.number[k]
+    coordinates.value[q], coordinates.value[q + 1] = load, own[REACH] + own[SHARE] * reach
+    turning = minus(w, W)
     if count == 3:
-        o = 0.0 * load
-        turning = minus(w, W)
-        first, second = (o, o, o, n[0], n[1], n[2]), (o, o, o, -n[0], -n[1], -n[2])
-        rate, bias = dot(n, turning) - spin, dot(cross(W, n), turning) - spin_rate
-        write_row(machine, k + 2, q + 2, first, second, rate, bias)
+        write_turn(machine, k + 2, q + 2, n, dot(n, turning) - spin, dot(cross(W, n), turning) - spin_rate)
         friction.number[k + 2, OVER] = real(spin)
+    if own[ROLLS] == 1.0:
+        coordinates.value[q + count], coordinates.value[q + count + 1] = load, 0.0 * load
+        for a in range(2):
+            b = t if a == 0 else u
+            write_turn(machine, k + count + a, q + count + a, b, dot(b, turning), dot(cross(W, b), turning))
+
+
+@stage
+def write_turn(machine, k, q, axis, rate, bias):
+    """Fill the row of friction k and coordinate q, the turn of both bodies against each other about an axis."""
+    o = 0.0 * rate
+    on_first, on_second = (o, o, o, axis[0], axis[1], axis[2]), (o, o, o, -axis[0], -axis[1], -axis[2])
+    write_row(machine, k, q, on_first, on_second, rate, bias)
 
 
 @stage
 def leave_patch(machine, k, count, q):
     """The surfaces do not touch."""
-    coordinates = record_at(machine).coordinates
+    record = record_at(machine)
+    coordinates, rolls = record.coordinates, record.friction.number[k, ROLLS] == 1.0
     if coordinates.value[q] == 0.0:
         return
     o = 0.0 * coordinates.value[q]
     coordinates.value[q], coordinates.value[q + 1] = o, o
-    for a in range(count):
+    if rolls:
+        coordinates.value[q + count] = o
+    for a in range(count + 2 if rolls else count):
         write_row(machine, k + a, q + a, (o, o, o, o, o, o), (o, o, o, o, o, o), o, o)
 
 

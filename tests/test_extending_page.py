@@ -300,7 +300,8 @@ print("speed", np.abs(result.array("speed") - np.sqrt((v * v).sum(axis=2))).max(
 
 def edited(folder, edits):
     """A copy of the package in `folder`, with these edits of the page."""
-    shutil.copytree(ROOT / "src" / "nivel", folder / "nivel", ignore=shutil.ignore_patterns("__pycache__"))
+    # with its byte code, which is that of files as old as they are: only what is edited is translated again
+    shutil.copytree(ROOT / "src" / "nivel", folder / "nivel")
     for path, how, anchor, text in edits:
         file = folder / path.removeprefix("src/")
         if how == "file":

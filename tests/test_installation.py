@@ -12,7 +12,6 @@ from pathlib import Path
 import pytest
 
 from browsing import chromium, until, watched
-from lanes import tail
 from patience import PATIENCE
 
 ROOT = Path(__file__).parent.parent
@@ -29,11 +28,15 @@ def commands(mark):
     return found.strip().splitlines()
 
 
-@pytest.fixture(params=tail(["kept", "new"], ["kept"]))
+# full: wheels are installed and run by their check, CI installs the sources, and pages of demos and results have tests of their own
+pytestmark = pytest.mark.full
+
+
+@pytest.fixture(params=["kept", "new"])
 def installed(request, tmp_path):
     """A copy of the repository in which the README's command has run, and the environment of its commands.
 
-    Machine code is what the tests have compiled, where versions are the same; in the full tests it is compiled as by a new user.
+    Machine code is what the tests have compiled, where versions are the same, or compiled as by a new user.
     """
     folder = tmp_path / "nivel"
     folder.mkdir()

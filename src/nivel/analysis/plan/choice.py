@@ -72,7 +72,7 @@ def with_integrator(machine: MachineRecord, name: str, **changes: float) -> Mach
     """The machine with this integrator and other changes of its settings; where it names no tolerance, with the usual one."""
     settings = machine.simulation
     own = {} if "tolerance" in settings.model_fields_set else {"tolerance": USUAL_TOLERANCE}
-    return machine.replace(simulation=settings.replace(integrator=name, **{**own, **changes}))
+    return machine.with_simulation(settings.replace(integrator=name, **{**own, **changes}))
 
 
 def with_dividing_step(machine: MachineRecord) -> MachineRecord:
@@ -82,7 +82,7 @@ def with_dividing_step(machine: MachineRecord) -> MachineRecord:
     if interval is None or is_chosen or "step" in settings.model_fields_set:
         return machine
     step = interval / ceil(interval / settings.step * (1.0 - 1e-9))
-    return machine.replace(simulation=settings.replace(step=step))
+    return machine.with_simulation(settings.replace(step=step))
 
 
 def choose_coordinates(machine: MachineRecord) -> str:

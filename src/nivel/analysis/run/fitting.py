@@ -73,7 +73,7 @@ def fitted(plan: Plan, prepared: Prepared, listener: Listener | None = None) -> 
         return replace(plan, reason=_explicit(plan, found)), prepared
     machine, reason = plan.machine, _implicit(plan, found)
     try:
-        new = plan_run(machine.replace(simulation=machine.simulation.replace(integrator=IMPLICIT)))
+        new = plan_run(machine.with_simulation(machine.simulation.replace(integrator=IMPLICIT)))
         build(run_entries(new), listener)
         return replace(new, reason=reason), prepare(new.methods)
     except ModelError:

@@ -133,12 +133,18 @@ def in_words(value: float, usual: Usual) -> str:
 def _of_fields(record: Record, place: str) -> Iterator[Finding]:
     """What is unusual in the fields of a record, and of those that it holds."""
     start = f"{place}." if place else ""
-    for name, field in type(record).model_fields.items():
-        value, key, usual = getattr(record, name), field.alias or name, usual_of(field)
+    for name, key, usual in _usual_in(type(record)):
+        value = getattr(record, name)
         if usual is not None:
             yield from _of_value(value, usual, f"{start}{key}", key)
         elif isinstance(value, Record):
             yield from _of_fields(value, f"{start}{key}")
+
+
+@cache
+def _usual_in(kind: type[Record]) -> tuple[tuple[str, str, Usual | None], ...]:
+    """(name, key, what is usual) of all fields of a kind of record."""
+    return tuple((name, field.alias or name, usual_of(field)) for name, field in kind.model_fields.items())
 
 
 def _of_value(value: Any, usual: Usual, place: str, key: str) -> Iterator[Finding]:

@@ -15,7 +15,7 @@ from nivel.elements.circuits.actuators import Cushion
 from nivel.elements.circuits.composed import CHECK_OPENS_AT, CHECK_RANGE
 from nivel.elements.circuits.edges import Edge
 from nivel.elements.circuits.fluids import Fluid, Gas
-from nivel.elements.circuits.pipe_losses import CRITICAL, RESISTANCE, loss
+from nivel.elements.circuits.lines import CRITICAL, RESISTANCE, loss
 from nivel.elements.circuits.pistons import (
     COULOMB,
     SEAL,

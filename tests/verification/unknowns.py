@@ -15,7 +15,7 @@ from nivel.analysis.assembly.implicit import ResidualOptions, evaluate_residual,
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import EULER_ANGLES, NONE, ROTATION_VECTOR
 from nivel.motion.catalogue import path_of
-from nivel.system.states import parameters
+from nivel.system.states import absolute
 from nivel.system.states.relative import arrange
 from nivel.system.states.three_coordinates import arranged
 from preparing import prepare
@@ -58,7 +58,7 @@ def at_state(record, prepared, coordinates, y, rng):
         assert path is not None
         kernels = import_module(path.module)
         if coordinates == "euler-parameters":
-            system, own = parameters.arrange(record, system, y, rank, record.simulation)
+            system, own = absolute.arrange_parameters(record, system, y, rank, record.simulation)
         else:
             system, own = arranged(system.known_rank(rank), y, *anywhere(coordinates, system.body_count, y, rng))
         system.record.coordinates.reference[:] = prepared.absolute.system.record.coordinates.reference

@@ -50,7 +50,7 @@ def _path(module: str, arrange: str, residual: str = "", *, dependent: bool = Fa
 # coordinates, velocities and rotations → equations; penalty methods share those of newton-euler
 PATHS: dict[tuple[str, str, str], PathFacts] = {
     ("absolute", "newton-euler", "euler-parameters"): _path("newton_euler", "absolute:arrange", "newton_euler"),
-    ("absolute", "lagrange", "euler-parameters"): _path("lagrange", "parameters:arrange", "lagrange_residual"),
+    ("absolute", "lagrange", "euler-parameters"): _path("lagrange", "absolute:arrange_parameters", "lagrange_residual"),
     ("absolute", "lagrange", "euler-angles"): _path(
         "lagrange_three", "three_coordinates:arrange_euler_angles", "lagrange_three"
     ),
@@ -61,7 +61,9 @@ PATHS: dict[tuple[str, str, str], PathFacts] = {
     ("independent", "newton-euler", "euler-parameters"): _path(
         "independent", "absolute:arrange_independent", "newton_euler", dependent=True
     ),
-    ("independent", "lagrange", "euler-parameters"): _path("lagrange_independent", "parameters:arrange_independent"),
+    ("independent", "lagrange", "euler-parameters"): _path(
+        "lagrange_independent", "absolute:arrange_independent_parameters"
+    ),
 }
 
 # the same for machines with flexible bodies

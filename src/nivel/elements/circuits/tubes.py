@@ -2,7 +2,7 @@
 
     l/A d(ṁ)/dt = p_a - p_b - Δp        Δp = 128 μ l/(π d⁴) ṁ/ρ (1 + (ṁ/ṁ_c)⁶)^(1/8) + ζ/(2 A²) ṁ |ṁ|/ρ
 
-laminar below ṁ_c and turbulent above it (Blasius), as `nivel.elements.circuits.pipe_losses`. With the volumes of the segments, in which
+laminar below ṁ_c and turbulent above it (Blasius), as `nivel.elements.circuits.lines`. With the volumes of the segments, in which
 the gas is compressed without heat, waves run with √(κ R T).
 """
 
@@ -20,10 +20,9 @@ from nivel.elements.circuits.density import DENSITY
 from nivel.elements.circuits.gases import REFERENCE
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.ledger import lose, transfer
-from nivel.elements.circuits.lines import MOST_SEGMENTS
+from nivel.elements.circuits.lines import CRITICAL_REYNOLDS, MOST_SEGMENTS
 from nivel.elements.circuits.nodes import NO_ACCUMULATOR, volume_node
 from nivel.elements.circuits.phase import Phase, called
-from nivel.elements.circuits.pipe_losses import CRITICAL_REYNOLDS
 from nivel.elements.circuits.restrictions import REFERENCE_ROOT, carry_heat
 from nivel.elements.circuits.smooth import magnitude_within
 from nivel.elements.circuits.symbol import pipe

@@ -18,17 +18,8 @@ TARGET: Final = ("generic", "+bulk-memory,+nontrapping-fptoint,+sign-ext", "wasm
 MAGIC: Final = b"\0asm\1\0\0\0"
 STACK, FIRST, LINE = 1 << 16, 1024, 64  # bytes of the stack, below the first datum, of a line of the cache
 # kinds of relocations
-FUNCTION, TABLE_SLEB, TABLE_I32, MEMORY_LEB, MEMORY_SLEB, MEMORY_I32, TYPE, GLOBAL, TABLE_NUMBER = (
-    0,
-    1,
-    2,
-    3,
-    4,
-    5,
-    6,
-    7,
-    20,
-)
+FUNCTION, TABLE_SLEB, TABLE_I32, MEMORY_LEB, MEMORY_SLEB, MEMORY_I32, TYPE, GLOBAL = range(8)
+TABLE_NUMBER = 20
 WITH_ADDEND: Final = (MEMORY_LEB, MEMORY_SLEB, MEMORY_I32, 8, 9)
 # flags of symbols; kinds of symbols and of imports
 LOCAL, UNDEFINED, NAMED = 0x02, 0x10, 0x40

@@ -115,9 +115,8 @@ class Curve:
         return replace(self, doubt=np.maximum(self.doubt, more), hidden=np.maximum(self.hidden, more))
 
 
-@np.errstate(
-    over="ignore", invalid="ignore"
-)  # what grew beyond all bounds has doubt that is no number, and is no warning
+# what grew beyond all bounds has doubt that is no number, and is no warning
+@np.errstate(over="ignore", invalid="ignore")
 def curve(time: Array, value: Array, rate: Array | None = None, second: Array | None = None) -> Curve:
     """The curve of values (n,) or (n, m). rate, second : derivatives where they are known.
 

@@ -45,9 +45,8 @@ def run_attributes(
             by_alias=True, exclude_none=True, exclude={"simulation": set(unnamed)} if unnamed else None
         ),
         "machine_source": source,
-        "scene": json.dumps(
-            scene(with_nodes(machine), prepared.absolute.system)
-        ),  # relative coordinates move body frames
+        # relative coordinates move body frames
+        "scene": json.dumps(scene(with_nodes(machine), prepared.absolute.system)),
         "settings": settings_in_json(settings, reason),
         "nivel_version": nivel.__version__,
         RESULT_FORMAT: FORMAT,

@@ -92,9 +92,8 @@ def every_check() -> tuple[Check[Any, Any], ...]:
     return tuple(sorted(found, key=lambda check: check.place))
 
 
-@np.errstate(
-    over="ignore", invalid="ignore", divide="ignore"
-)  # a run that grew beyond all bounds is red, not a warning
+# a run that grew beyond all bounds is red, not a warning
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")
 def assess(subject: Subject, given: Mapping[str, Any] | None = None) -> Trust:
     """The trust report of a subject.
 

@@ -39,9 +39,8 @@ from nivel.machine.units.quantity import (
 Array = NDArray[np.float64]
 START, END = "start", "end"
 LEAST: Final = 1e-4  # share of the length by which stations and ends are apart, at least
-MOST_TURN: Final = (
-    0.5 * np.pi + 1e-6
-)  # of an element, unstressed: rotations within it are interpolated as vectors [rad]
+# of an element, unstressed: rotations within it are interpolated as vectors [rad]
+MOST_TURN: Final = 0.5 * np.pi + 1e-6
 REPRESENTED: Final = 1e-6  # share by which sections may miss what a model can represent
 OTHERS: Final = "or take `model: ancf-beam` or `geometrically-exact`"
 FARTHEST: Final = 1e9  # m; farther points are slips, and their squares may overflow

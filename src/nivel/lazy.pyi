@@ -50,6 +50,7 @@ import nivel.analysis.kinematics.run
 import nivel.analysis.linearise
 import nivel.analysis.linearise.linearise
 import nivel.analysis.linearise.ports
+import nivel.analysis.linearise.tuning
 import nivel.analysis.optimise
 import nivel.analysis.optimise.evaluations
 import nivel.analysis.optimise.identify

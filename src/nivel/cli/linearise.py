@@ -15,6 +15,7 @@ from nivel.settings import LineariseSettingsDict
 
 if TYPE_CHECKING:
     from nivel.analysis.progress.log import Listener
+    from nivel.machine.machine_record import MachineRecord
     from nivel.results.analyses.linear_model import LinearModel
     from nivel.results.analyses.linear_sweep import LinearSweep
 
@@ -45,6 +46,12 @@ MOST = 1000  # values of a parameter
     help="Response to random vibration: one-sided power spectral density of an input, a level ('0.01 N^2/Hz': white noise) or a table "
     "(CSV) with a column `frequency [Hz]`. May be repeated.",
 )
+@click.option(
+    "--tune",
+    metavar="BLOCK=PHASE,GAIN",
+    multiple=True,
+    help="Gains of a sampled PID with the largest ki of this phase margin in degrees and gain margin, e.g. position=60,2.",
+)
 @click.option("--mode", "shown", type=int, multiple=True, metavar="N", help="Also write an animation of mode N.")
 def command(
     order: Order,
@@ -52,6 +59,7 @@ def command(
     orders: tuple[str, ...] | None,
     with_others: bool,
     psd: tuple[str, ...],
+    tune: tuple[str, ...],
     shown: tuple[int, ...],
 ) -> None:
     """Linearise the equations of motion of MACHINE about a state.
@@ -61,6 +69,8 @@ def command(
     Exit codes: 0 done, 2 fault in the input, 3 the computation failed, 130 interrupted.
     """
     if over is not None:
+        if tune:
+            raise ModelError(Fault("", 0, 0, "linearise.tune", "is of one model, and --over makes many"))
         if psd:
             raise ModelError(Fault.at("linearise.psd", "is of one model, and --over makes many"))
         if with_others and "verify" in order.settings:
@@ -91,7 +101,21 @@ def command(
             model.mode(number).export_scene(page)
         return model
 
-    order.keep(name, compute, _said)
+    def lines(model: LinearModel) -> list[str]:
+        return [*_said(model), *(_tuned(machine.record, model, each) for each in tune)]
+
+    order.keep(name, compute, lines)
+
+
+def _tuned(record: MachineRecord, model: LinearModel, asked: str) -> str:
+    """Gains of a controller in words. asked : BLOCK=PHASE,GAIN. Raises ModelError."""
+    name, _, margins = asked.partition("=")
+    try:
+        phase, gain = map(float, (margins or "60,2").split(","))
+    except ValueError:
+        said = f"`{asked}` is not of the form BLOCK=PHASE,GAIN, e.g. position=60,2: degrees, and a factor"
+        raise ModelError(Fault("", 0, 0, "linearise.tune", said)) from None
+    return nivel.analysis.linearise.tuning.tuned(record, model.sampled, name.strip(), phase, gain).words
 
 
 def _sweep(order: Order, over: str, orders: list[float], *, verify: bool) -> None:

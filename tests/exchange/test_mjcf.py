@@ -109,6 +109,9 @@ def test_springs_limits_friction_actuators_and_sites(tmp_path):
     assert (spring.stiffness, spring.damping) == (2.0, 0.1)
     assert spring.free_value == pytest.approx(np.deg2rad(10))
     assert (stop.lower, stop.upper) == pytest.approx((-np.pi / 2, np.pi / 2))
+    # of solref 0.02 1 and the impedance 0.95: k d²/((1 - d) w), k = 1/(0.95 · 0.02)², w = 1/J of a ball of 1000 kg/m³
+    moment = 0.4 * 4 / 3 * np.pi * 1000 * 0.1**5
+    assert stop.stiffness == pytest.approx(0.95**2 / (0.95 * 0.02) ** 2 / 0.05 * moment, rel=1e-2)
     assert machine.forces["j_friction"].normal_load == pytest.approx(0.2)
     assert machine.forces["hold"].limit == pytest.approx(15.0)
     # gear · (10 u - 10 · gear · q - 2 · gear · q̇), at q = 20 deg and u = 0

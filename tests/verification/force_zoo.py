@@ -222,7 +222,7 @@ CASES = {
                                        "block": {"shape": {"type": "box", "size": [0.6, 0.5, 0.4]}, "mass": 0.5,
                                                  "position": [-0.4, 0.6, 1.9]}}}),
     "sphere, sticks": Case({**ON_FLOOR_STICKING, "friction_work": True}, ON, True, shape("c", "sphere", radius=0.4)),
-    "sphere, rolls and spins": Case({**ON_FLOOR_STICKING, "friction_work": True, "rolling_resistance": 0.02, "patch_radius": 0.1},
+    "sphere, rolls and spins": Case({**ON_FLOOR_STICKING, "rolling_resistance": 0.02, "patch_radius": 0.1},
                                     ON, True, shape("c", "sphere", radius=0.4)),
     "sphere that sticks, apart": Case(ON_FLOOR_STICKING, None, False, shape("c", "sphere", radius=0.4)),
     "box, sticks": Case(ON_FLOOR_STICKING, ("c", "", [-0.5, 0.9, 0.25]), True, shape("c", "box", size=[0.5, 0.6, 0.7])),

@@ -17,6 +17,9 @@ LARGEST: Final = 1e6  # [rad or m] an end of the way beyond this is none
 
 CREEPS: Final = "friction of a joint is dry friction that creeps as slowly as that of the model"
 STOPS: Final = f"limits are stops: their stiffness lets what the joint moves vibrate at {STOP_FREQUENCY:g} Hz, restitution {RESTITUTION:g}"
+HARD_STOPS: Final = (
+    f"limits are stops with the stiffness that those of the model have under load, restitution {RESTITUTION:g}"
+)
 FRICTION: Final = "friction of a joint is dry friction with sticking, of the same effort in both directions"
 ENDS: Final = f"limits of tendons are springs, with which what they move vibrates at {STOP_FREQUENCY:g} Hz"
 EFFORT: Final = "limits of effort: give them as `limit` of a motor or servo"
@@ -36,10 +39,10 @@ def parts_of(each: Connection, effective: float, mechanism: Mechanism) -> dict[s
     if len(ends) == 2 and ends["lower"] >= ends["upper"]:
         notes.leave("limits whose lower end is not below the upper end", each.name, each.line)
     elif ends and effective > 0.0:
-        stiffness = float(f"{effective * (2.0 * math.pi * STOP_FREQUENCY) ** 2:.3g}")
+        stiffness = float(f"{each.hardness or effective * (2.0 * math.pi * STOP_FREQUENCY) ** 2:.3g}")
         out["stops"] = {key: number(value) for key, value in ends.items()}
         out["stops"] |= {"stiffness": stiffness, "restitution": RESTITUTION}
-        notes.change(STOPS, each.name, each.line)
+        notes.change(HARD_STOPS if each.hardness else STOPS, each.name, each.line)
     if each.friction > 0.0:
         law = {"model": "coulomb", "transition_speed": float(f"{each.creep:.6g}")} if each.creep else {}
         out["friction"] = {"effort": number(each.friction), **law} if law else number(each.friction)

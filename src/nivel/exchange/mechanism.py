@@ -93,8 +93,8 @@ class Connection:
 
     lower, upper : ends of its way. mimic : name of another joint, factor and offset. follows : name of another joint, and factors a of
     q = reference + a₀ + a₁ d + a₂ d² + …, d the way of that from its own `reference`. stiffness, free : of a spring. armature : inertia of
-    a rotor at the coordinate [kg m² or kg]. creep : rate at which friction holds no more, 0 where it sticks. start : of the coordinate.
-    frames : in both links, which an open joint brings together.
+    a rotor at the coordinate [kg m² or kg]. hardness : stiffness of the ends, 0 where nothing is said of it. creep : rate at which
+    friction holds no more, 0 where it sticks. start : of the coordinate. frames : in both links, which an open joint brings together.
     """
 
     name: str
@@ -106,6 +106,7 @@ class Connection:
     upper: float | None = None
     effort: float | None = None
     damping: float = 0.0
+    hardness: float = 0.0
     friction: float = 0.0
     creep: float = 0.0
     stiffness: float = 0.0

@@ -26,7 +26,7 @@ from nivel.exchange.mechanism import (
     Mechanism,
     Terms,
 )
-from nivel.exchange.mjcf_contacts import CLIP, read_contacts
+from nivel.exchange.mjcf_contacts import CLIP, hardness, read_contacts
 from nivel.exchange.mjcf_equalities import read_equalities
 from nivel.exchange.mjcf_tendons import Tendons
 from nivel.exchange.urdf import digits
@@ -306,6 +306,9 @@ class _Reader:
             joint.creep = joint.friction * self._compliance(v)
         if "limits" not in self.off and m.jnt_limited[j]:
             joint.lower, joint.upper = map(float, m.jnt_range[j])
+            joint.hardness = hardness(
+                m.jnt_solref[j], m.jnt_solimp[j], float(m.dof_invweight0[v]), float(m.opt.timestep)
+            )
         curved = [getattr(m, key, None) for key in ("jnt_stiffnesspoly", "dof_dampingpoly")]
         for poly, k in zip(curved, (j, v), strict=True):
             if poly is not None and np.any(poly[k]):

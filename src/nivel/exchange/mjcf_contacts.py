@@ -125,15 +125,25 @@ def _load(m: Any, geoms: tuple[int, int]) -> float:
     return float(m.body_subtreemass[root]) / FEET if free else 0.0
 
 
+def hardness(ref: Any, imp: Any, w: float, step: float) -> float:
+    """Stiffness [N/m or N m/rad] of a limit whose impedance is at its end, as it is under any load that sinks beyond its width."""
+    d = min(max(float(imp[1]), CLIP), 1.0 - CLIP)
+    return _law(ref, d, step)[0] * d * d / ((1.0 - d) * w) if w > 0.0 else 0.0
+
+
+def _law(ref: Any, most: float, step: float) -> tuple[float, float]:
+    """(k [1/s²], b [1/s]) of a reference."""
+    if ref[0] > 0.0:
+        time = max(float(ref[0]), 2.0 * step)
+        return 1.0 / (most * time * float(ref[1])) ** 2, 2.0 / (most * time)
+    return -float(ref[0]) / most**2, -float(ref[1]) / most
+
+
 def _softness(ref: Any, imp: Any, w: float, step: float, gravity: float) -> tuple[float, float]:
     """Stiffness [N/m] and damping [s/m] under the load `gravity`/w."""
     least, most, middle = (min(max(float(imp[k]), CLIP), 1.0 - CLIP) for k in (0, 1, 3))
     width, power = float(imp[2]), max(float(imp[4]), 1.0)
-    if ref[0] > 0.0:
-        time = max(float(ref[0]), 2.0 * step)
-        k, b = 1.0 / (most * time * float(ref[1])) ** 2, 2.0 / (most * time)
-    else:
-        k, b = -float(ref[0]) / most**2, -float(ref[1]) / most
+    k, b = _law(ref, most, step)
     low, high = 0.0, (1.0 - least) * gravity / (k * least * least)
     d = least
     for _ in range(BISECTIONS):  # the overlap r at which k d² r/(1 - d) is the load

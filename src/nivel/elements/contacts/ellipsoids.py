@@ -11,33 +11,37 @@ Both are exact, and so is their gradient, as long as an ellipsoid is not deeper 
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 
+from nivel.elements.contacts.contact import Contact
 from nivel.elements.contacts.law import (
     NORMAL,
     NUMBERS,
     POINT,
     SPEED,
-    begin_contact,
-    needs_speed,
-    note_mean_speed,
-    note_speed,
-    press,
-    report_contact,
+    Points,
+    is_far,
+    mean_speed,
+    pair,
     seen,
+    times,
     velocity_at,
 )
 from nivel.elements.contacts.rounds import (
     ends_of,
-    is_far,
     note_place,
 )
+from nivel.elements.contacts.shapes import ball_of_shape, part_of, polytope_of
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot
-from nivel.kernels.core.status import OK
 from nivel.kernels.elements.patch import axis, minus, plus
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
+from nivel.machine.bodies.shape import Capsule, Ellipsoid, Sphere
+from nivel.machine.bodies.solids import length
+from nivel.machine.bodies.touching import Touching
 from nivel.native.function import leaf, part, stage
 
 # numbers of a polytope: the counts of corners, faces and edges, then corners (3 each), faces (normal and distance, 4 each) and edges (6
@@ -188,6 +192,23 @@ def in_face(polytope, y, at, faces):
     return True
 
 
+@leaf
+def face_gap(polytope, p, c, B, a):
+    """(height of the centre over the face that begins at p, gap to the ellipsoid, normal into the face, place of the face below it)."""
+    o = 0.0 * c[0]
+    n = polytope[p] + o, polytope[p + 1] + o, polytope[p + 2] + o
+    h, x = support(B, a, n)
+    above = dot(n, c) - polytope[p + 3]
+    gap = above - h
+    return above, gap, (-n[0], -n[1], -n[2]), minus(minus(c, x), (gap * n[0], gap * n[1], gap * n[2]))
+
+
+@leaf
+def reals(x):
+    """The values of three numbers."""
+    return real(x[0]), real(x[1]), real(x[2])
+
+
 @part
 def from_polytope(polytope, c, B, a):
     """(distance, its gradient with the place of the polytope, its nearest or deepest point, whether that is in a face) of a polytope, in
@@ -195,79 +216,40 @@ def from_polytope(polytope, c, B, a):
 
     Where the centre is inside the polytope the ellipsoid comes out by the face that is next.
     """
-    corners, faces, edges = (
-        np.int64(real(polytope[CORNERS])),
-        np.int64(real(polytope[FACES])),
-        np.int64(real(polytope[EDGES])),
-    )
-    first = FIRST + 3 * corners
-    o = 0.0 * c[0]
+    corners, faces = np.int64(real(polytope[CORNERS])), np.int64(real(polytope[FACES]))
+    edges, first, o = np.int64(real(polytope[EDGES])), FIRST + 3 * corners, 0.0 * c[0]
     next_face, most, is_inside = first, -np.inf, faces > 0
     for k in range(faces):
         p = first + 4 * k
-        n = polytope[p] + o, polytope[p + 1] + o, polytope[p + 2] + o
-        h, x = support(B, a, n)
-        above = dot(n, c) - polytope[p + 3]
-        gap = above - h
+        above, gap, g, y = face_gap(polytope, p, c, B, a)
         if real(above) > 0.0:
             is_inside = False
-            y = c[0] - x[0] - gap * n[0], c[1] - x[1] - gap * n[1], c[2] - x[2] - gap * n[2]
             if in_face(polytope, y, p, faces):
-                return gap, -n[0], -n[1], -n[2], y[0], y[1], y[2], 1.0
+                return gap, g, y, 1.0
         if real(gap) > most:
             next_face, most = p, real(gap)
     if is_inside:
-        n = polytope[next_face] + o, polytope[next_face + 1] + o, polytope[next_face + 2] + o
-        h, x = support(B, a, n)
-        gap = dot(n, c) - polytope[next_face + 3] - h
-        return (
-            gap,
-            -n[0],
-            -n[1],
-            -n[2],
-            c[0] - x[0] - gap * n[0],
-            c[1] - x[1] - gap * n[1],
-            c[2] - x[2] - gap * n[2],
-            1.0,
-        )
+        _, gap, g, y = face_gap(polytope, next_face, c, B, a)
+        return gap, g, y, 1.0
     first += 4 * faces
-    least, m, e = np.inf, (o, o, o), (o, o, o)
-    for k in range(max(edges, 1)):
-        if edges == 0:  # a point
-            m = into(B, (polytope[FIRST] - c[0], polytope[FIRST + 1] - c[1], polytope[FIRST + 2] - c[2]))
-            break
-        p = first + 6 * k
-        middle = into(
-            B,
-            (
-                0.5 * (polytope[p] + polytope[p + 3]) - c[0],
-                0.5 * (polytope[p + 1] + polytope[p + 4]) - c[1],
-                0.5 * (polytope[p + 2] + polytope[p + 5]) - c[2],
-            ),
-        )
-        along = into(
-            B,
-            (
-                polytope[p + 3] - polytope[p] + o,
-                polytope[p + 4] - polytope[p + 1] + o,
-                polytope[p + 5] - polytope[p + 2] + o,
-            ),
-        )
-        y, b, s = (real(middle[0]), real(middle[1]), real(middle[2])), (real(along[0]), real(along[1]), real(along[2])), (
-            real(a[0]), real(a[1]), real(a[2]),
-        )  # fmt: skip
+    least, e, s = np.inf, (o, o, o), reals(a)
+    # without edges it is a point
+    m = into(B, minus((polytope[FIRST], polytope[FIRST + 1], polytope[FIRST + 2]), c))
+    for k in range(edges):
+        p = polytope[first + 6 * k : first + 6 * k + 6]
+        middle = into(B, minus((0.5 * (p[0] + p[3]), 0.5 * (p[1] + p[4]), 0.5 * (p[2] + p[5])), c))
+        along = into(B, (p[3] - p[0] + o, p[4] - p[1] + o, p[5] - p[2] + o))
+        y, b = reals(middle), reals(along)
         d, rate = along_edge(y, b, 0.0, s)
         # a convex function is nowhere below its tangent
         if d - 0.5 * np.abs(rate) < least:
-            t = nearest_on_edge(y, b, s)
-            d = along_edge(y, b, t, s)[0]
+            d = along_edge(y, b, nearest_on_edge(y, b, s), s)[0]
             if d < least:
                 least, m, e = d, middle, along
     t = nearest_on_edge(m, e, a) if edges > 0 else o
     y = m[0] + t * e[0], m[1] + t * e[1], m[2] + t * e[2]
     d, p, q, r = from_ellipsoid(y, a)
-    g, y = turned(B, (p, q, r)), turned(B, y)
-    return d, g[0], g[1], g[2], c[0] + y[0], c[1] + y[1], c[2] + y[2], 0.0
+    return d, turned(B, (p, q, r)), plus(c, turned(B, y)), 0.0
 
 
 @leaf
@@ -364,13 +346,8 @@ def turned_by(n, v, share):
 def between_ellipsoids(A, a, B, b, d):
     """(distance, unit normal from the first to the second, the point of the second that is nearest or deepest) of two ellipsoids with the
     axes A, B and the semi-axes a, b; d from the centre of the first to that of the second, from which the point is counted."""
-    A0 = real(A[0]), real(A[1]), real(A[2]), real(A[3]), real(A[4]), real(A[5]), real(A[6]), real(A[7]), real(A[8])
-    B0 = real(B[0]), real(B[1]), real(B[2]), real(B[3]), real(B[4]), real(B[5]), real(B[6]), real(B[7]), real(B[8])
-    a0, b0, d0 = (
-        (real(a[0]), real(a[1]), real(a[2])),
-        (real(b[0]), real(b[1]), real(b[2])),
-        (real(d[0]), real(d[1]), real(d[2])),
-    )
+    A0, B0 = reals(A[:3]) + reals(A[3:6]) + reals(A[6:]), reals(B[:3]) + reals(B[3:6]) + reals(B[6:])
+    a0, b0, d0 = reals(a), reals(b), reals(d)
     n = homothetic_direction(A0, a0, B0, b0, d0)
     gap, G = gap_and_slope(A0, a0, B0, b0, d0, n)
     v = (0.0, 0.0, 0.0)
@@ -392,22 +369,14 @@ def between_ellipsoids(A, a, B, b, d):
     o = 0.0 * d[0]
     m = n[0] + o, n[1] + o, n[2] + o
     uphill = gap_and_slope(A, a, B, b, d, m)[1]
-    t, u = across(n)
-    p = bend_of(A0, a0, n, t, t) + bend_of(B0, b0, n, t, t) + gap
-    q = bend_of(A0, a0, n, t, u) + bend_of(B0, b0, n, t, u)
-    r = bend_of(A0, a0, n, u, u) + bend_of(B0, b0, n, u, u) + gap
-    k = p * r - q * q
-    if k > 0.0:
-        f, g = dot(t, uphill), dot(u, uphill)
-        f, g = (r * f - q * g) / k, (p * g - q * f) / k
-        m = turned_by(m, (f * t[0] + g * u[0], f * t[1] + g * u[1], f * t[2] + g * u[2]), 1.0)
+    m = turned_by(m, turn_towards(A0, a0, B0, b0, d0, n, uphill, gap), 1.0)
     y = support(B, b, m)[1]
-    return gap_and_slope(A, a, B, b, d, m)[0], m[0], m[1], m[2], -y[0], -y[1], -y[2]
+    return gap_and_slope(A, a, B, b, d, m)[0], m, (-y[0], -y[1], -y[2])
 
 
 # numbers of a pair with an ellipsoid, behind SWAPPED; SEMI_AXES: of it; OTHER_KIND: of the other one; OTHER_CORE: its radius around what
-# its numbers are of. The RADIUS of one on a plane is without bounds.
-SEMI_AXES, OTHER_KIND, OTHER_CORE, NUMBERS_OF_OTHER = 1, 4, 5, 6
+# its numbers are of; ON_FACE: work, 1 where it touches with a face. The RADIUS of one on a plane is without bounds.
+SEMI_AXES, OTHER_KIND, OTHER_CORE, ON_FACE, NUMBERS_OF_OTHER = 1, 4, 5, 6, 7
 POLYTOPE, ELLIPSOID = 0, 1
 
 
@@ -419,8 +388,35 @@ def between(A, B):
 
 
 @stage
-def find_point_of_ellipsoid(machine, k):
-    """Where contact k may touch and the normal there, left in the numbers; returns (depth, 1 where the other body touches with a face)."""
+def speed_of_support(machine, k, n):
+    """Velocity of the point itself: where the ellipsoid of contact k rolls on a face, that of its support; else the mean.
+
+    x = S² g/|S g| in axes of the ellipsoid, g = Bᵀ n, ġ = Bᵀ (Ω - ω) × n.
+    """
+    record = record_at(machine)
+    markers, bodies, numbers = record.markers, record.bodies, record.elements.number[k]
+    i, j, sign = ends_of(machine, k)
+    p, normal, B, a = numbers[POINT:NORMAL], numbers[NORMAL:SPEED], markers.A[i], numbers[NUMBERS + SEMI_AXES :]
+    if real(numbers[NUMBERS + ON_FACE]) != 1.0:
+        return mean_speed(machine, k, 0)
+    d = -sign * normal[0], -sign * normal[1], -sign * normal[2]
+    turning = cross(minus(bodies.omega[markers.body[j]], bodies.omega[markers.body[i]]), d)
+    square, along = 0.0 * d[0], 0.0 * d[0]
+    for b in range(3):
+        g = dot(axis(B, b), d)
+        square += a[b] * a[b] * g * g
+        along += a[b] * a[b] * g * dot(axis(B, b), turning)
+    h = np.sqrt(square)
+    v = velocity_at(bodies, markers.body[i], p)
+    for b in range(3):
+        share = a[b] * a[b] * (dot(axis(B, b), turning) - dot(axis(B, b), d) * along / square) / h
+        v = plus(v, (share * B[0, b], share * B[1, b], share * B[2, b]))
+    return v
+
+
+@pair(is_far, speed_of_support)
+def apply_to_ellipsoids(machine, k, n):
+    """An ellipsoid on another body: where they may touch."""
     record = record_at(machine)
     markers, more = record.markers, record.elements.number[k, NUMBERS:]
     i, j, sign = ends_of(machine, k)
@@ -429,55 +425,35 @@ def find_point_of_ellipsoid(machine, k):
     if np.int64(real(more[OTHER_KIND])) == ELLIPSOID:
         o = 0.0 * c[0]
         upright = o + 1.0, o, o, o, o + 1.0, o, o, o, o + 1.0
-        d, g0, g1, g2, y0, y1, y2 = between_ellipsoids(B, a, upright, shape, (-c[0], -c[1], -c[2]))
+        d, g, y = between_ellipsoids(B, a, upright, shape, (-c[0], -c[1], -c[2]))
         on_face = 0.0
     else:
-        d, g0, g1, g2, y0, y1, y2, on_face = from_polytope(shape, c, B, a)
+        d, g, y, on_face = from_polytope(shape, c, B, a)
     depth = more[OTHER_CORE] - d
     # in the middle of the overlap, from the point of the core on towards the ellipsoid
     below = 0.5 * depth - more[OTHER_CORE]
-    note_place(machine, k, j, (y0 + below * g0, y1 + below * g1, y2 + below * g2), (g0, g1, g2), -sign)
-    return depth, on_face
+    note_place(machine, k, j, plus(y, times(below, g)), g, -sign)
+    more[ON_FACE] = 0.0 * depth + on_face
+    return depth
 
 
-@stage
-def speed_of_support(machine, k):
-    """Velocity of the point itself where the ellipsoid of contact k rolls on a face.
-
-    x = S² g/|S g| in axes of the ellipsoid, g = Bᵀ n, ġ = Bᵀ (Ω - ω) × n.
-    """
-    record = record_at(machine)
-    markers, bodies, numbers = record.markers, record.bodies, record.elements.number[k]
-    i, j, sign = ends_of(machine, k)
-    p, normal, B, a = numbers[POINT:NORMAL], numbers[NORMAL:SPEED], markers.A[i], numbers[NUMBERS + SEMI_AXES :]
-    n = -sign * normal[0], -sign * normal[1], -sign * normal[2]
-    turning = cross(minus(bodies.omega[markers.body[j]], bodies.omega[markers.body[i]]), n)
-    square, along = 0.0 * n[0], 0.0 * n[0]
-    for b in range(3):
-        g = dot(axis(B, b), n)
-        square += a[b] * a[b] * g * g
-        along += a[b] * a[b] * g * dot(axis(B, b), turning)
-    h = np.sqrt(square)
-    v = velocity_at(bodies, markers.body[i], p)
-    for b in range(3):
-        share = a[b] * a[b] * (dot(axis(B, b), turning) - dot(axis(B, b), n) * along / square) / h
-        v = plus(v, (share * B[0, b], share * B[1, b], share * B[2, b]))
-    return v
-
-
-@family
-def apply_to_ellipsoids(machine, number, t):
-    """All contacts of an ellipsoid."""
-    elements = record_at(machine).elements
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        begin_contact(machine, k, t)
-        if not is_far(machine, k):
-            depth, on_face = find_point_of_ellipsoid(machine, k)
-            if needs_speed(machine, k, 0, depth):
-                if on_face == 1.0:
-                    note_speed(machine, k, speed_of_support(machine, k))
-                else:
-                    note_mean_speed(machine, k)
-            press(machine, k, 0, depth, t)
-        report_contact(machine, k)
-    return OK
+def points_of_ellipsoid(force: Contact, bodies: Sequence[Touching]) -> Points:
+    """Of an ellipsoid on a plane or another shape."""
+    first = next(k for k, body in enumerate(bodies) if isinstance(body.shape, Ellipsoid))
+    own, core, kind, balls = bodies[first].shape, 0.0, POLYTOPE, math.inf
+    assert isinstance(own, Ellipsoid)
+    # the half-space below z = 0: a face alone
+    numbers = [0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]
+    if force.bodies is not None:
+        other, balls = bodies[1 - first], sum(ball_of_shape(body) for body in bodies)
+        match other.shape:
+            case Ellipsoid():
+                kind, numbers = ELLIPSOID, list(other.shape.semi_axes)
+            case Sphere():
+                core, numbers = other.shape.radius, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+            case Capsule():
+                ends = [0.0, 0.0, -0.5 * length(other.shape), 0.0, 0.0, 0.5 * length(other.shape)]
+                core, numbers = other.shape.radius, [2.0, 0.0, 1.0, *ends, *ends]
+            case _:
+                numbers = polytope_of(other, part_of(force, bodies, 1 - first))
+    return Points(1, balls, [], [float(first), *own.semi_axes, float(kind), core, 0.0, *numbers])

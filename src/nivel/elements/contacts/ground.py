@@ -7,11 +7,14 @@ force acts on the ground.
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Callable, Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.elements.contacts.contact import Contact
 from nivel.elements.contacts.law import (
     COLUMNS,
-    COUNT,
     MARKER,
     NORMAL,
     NUMBERS,
@@ -19,21 +22,21 @@ from nivel.elements.contacts.law import (
     POINT,
     RADIUS,
     SPEED,
-    begin_contact,
+    Points,
     is_apart,
-    needs_speed,
-    note_speed,
-    press,
-    report_contact,
+    is_far,
+    pair,
     times,
     velocity_at,
 )
+from nivel.elements.contacts.shapes import ball_of_shape, corners_of
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot
-from nivel.kernels.core.status import OK
 from nivel.kernels.elements.patch import axis, minus, plus
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
+from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere
+from nivel.machine.bodies.solids import box_size, length
+from nivel.machine.bodies.touching import Touching
 from nivel.native.function import leaf, stage
 
 # columns of the pair. KIND: of the shape; SHAPE: where its numbers begin, behind those of ground with heights
@@ -128,23 +131,6 @@ def is_above(machine, k, highest):
 
 
 @stage
-def find_point_over_plane(machine, k, n):
-    """Where point n of contact k may touch and the normal there, left in the numbers; returns the overlap."""
-    record = record_at(machine)
-    markers, columns, numbers = record.markers, record.elements.columns[k], record.elements.number[k]
-    i, j, kind = columns[MARKER], columns[OTHER], columns[KIND]
-    p, normal, size = numbers[POINT:NORMAL], numbers[NORMAL:SPEED], numbers[NUMBERS:]
-    for a in range(3):
-        normal[a] = markers.A[j, a, 2]
-    shape_point(kind, markers.A[i], markers.r[i], size, n, normal, p)
-    height, radius = dot(minus(p, markers.r[j]), normal), ball_radius(kind, size)
-    if kind in (SPHERE, CAPSULE):
-        for a in range(3):
-            p[a] -= height * normal[a]
-    return radius - height
-
-
-@stage
 def speed_of_ball_point(machine, i, j, z, normal):
     """Velocity of the point itself below a ball of the body of marker i, whose centre is z along its z axis, on the plane of marker j."""
     record = record_at(machine)
@@ -173,20 +159,27 @@ def speed_over_plane(machine, k, n):
     return velocity_at(record.bodies, markers.body[i], p)
 
 
-@family
-def apply(machine, number, t):
-    """All contacts of a shape with a plane."""
-    elements = record_at(machine).elements
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        begin_contact(machine, k, t)
-        if not is_above(machine, k, 0.0):
-            for n in range(elements.columns[k, COUNT]):
-                depth = find_point_over_plane(machine, k, n)
-                if needs_speed(machine, k, n, depth):
-                    note_speed(machine, k, speed_over_plane(machine, k, n))
-                press(machine, k, n, depth, t)
-        report_contact(machine, k)
-    return OK
+@stage
+def is_above_plane(machine, k):
+    """Whether the ball around the shape of contact k is far above the plane."""
+    return is_above(machine, k, 0.0)
+
+
+@pair(is_above_plane, speed_over_plane)
+def apply(machine, k, n):
+    """A shape over a plane: where point n may touch."""
+    record = record_at(machine)
+    markers, columns, numbers = record.markers, record.elements.columns[k], record.elements.number[k]
+    i, j, kind = columns[MARKER], columns[OTHER], columns[KIND]
+    p, normal, size = numbers[POINT:NORMAL], numbers[NORMAL:SPEED], numbers[NUMBERS:]
+    for a in range(3):
+        normal[a] = markers.A[j, a, 2]
+    shape_point(kind, markers.A[i], markers.r[i], size, n, normal, p)
+    height, radius = dot(minus(p, markers.r[j]), normal), ball_radius(kind, size)
+    if kind in (SPHERE, CAPSULE):
+        for a in range(3):
+            p[a] -= height * normal[a]
+    return radius - height
 
 
 @stage
@@ -204,7 +197,7 @@ def find_point_of_spheres(r, o, numbers, radius, other):
 
 
 @stage
-def speed_between_spheres(machine, k):
+def speed_between_spheres(machine, k, n):
     """Velocity of the point itself between the two spheres of contact k."""
     record = record_at(machine)
     markers, columns, numbers = record.markers, record.elements.columns[k], record.elements.number[k]
@@ -217,18 +210,38 @@ def speed_between_spheres(machine, k):
     return plus(markers.rdot[j], plus(times(a, speed), times(b, normal)))
 
 
-@family
-def apply_to_spheres(machine, number, t):
-    """All contacts of two spheres."""
+@pair(is_far, speed_between_spheres)
+def apply_to_spheres(machine, k, n):
+    """Two spheres: where they may touch."""
     record = record_at(machine)
-    elements, markers = record.elements, record.markers
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        columns, numbers = elements.columns[k], elements.number[k]
-        r, o = markers.r[columns[MARKER]], markers.r[columns[OTHER]]
-        begin_contact(machine, k, t)
-        depth = find_point_of_spheres(r, o, numbers, numbers[NUMBERS], numbers[NUMBERS + 1])
-        if needs_speed(machine, k, 0, depth):
-            note_speed(machine, k, speed_between_spheres(machine, k))
-        press(machine, k, 0, depth, t)
-        report_contact(machine, k)
-    return OK
+    columns, numbers, r = record.elements.columns[k], record.elements.number[k], record.markers.r
+    return find_point_of_spheres(r[columns[MARKER]], r[columns[OTHER]], numbers, numbers[NUMBERS], numbers[NUMBERS + 1])
+
+
+def ground_shape(body: Touching, corners: Callable[[Touching], NDArray[np.float64]]) -> tuple[int, int, list[float]]:
+    """Kind, number of points and numbers of a shape; `corners` of an extrusion or a mesh."""
+    match body.shape:
+        case Sphere():
+            return SPHERE, 1, [body.shape.radius]
+        case Box():
+            return BOX, 8, [0.5 * side for side in box_size(body.shape)]
+        case Cylinder():
+            return CYLINDER, 8, [body.shape.radius, 0.5 * length(body.shape)]
+        case Capsule():
+            return CAPSULE, 2, [body.shape.radius, 0.5 * length(body.shape)]
+        case Extrusion() | Mesh():
+            found = corners(body)
+            return HULL, len(found), found.ravel().tolist()
+    raise ValueError(f"{body.name} has no shape that can touch")
+
+
+def points_over_plane(force: Contact, bodies: Sequence[Touching]) -> Points:
+    """Of a shape on a plane."""
+    kind, count, size = ground_shape(bodies[0], corners_of)
+    return Points(count, ball_of_shape(bodies[0]), [kind], size)
+
+
+def points_of_spheres(force: Contact, bodies: Sequence[Touching]) -> Points:
+    """Of two spheres."""
+    radii = [ball_of_shape(body) for body in bodies]
+    return Points(1, sum(radii), [], radii)

@@ -73,15 +73,15 @@ def push_apart(machine, k, place, i, j, depth, t):
 
 
 @leaf
-def cell_of(x, size):
-    """Number of the cell along an axis."""
-    return np.int64(np.floor(real(x) / size))
-
-
-@leaf
 def place_in_table(x, y, z, size):
     """Place of a cell in a table whose size is a power of two (Teschner and others 2003)."""
     return ((x * 73856093) ^ (y * 19349663) ^ (z * 83492791)) & (size - 1)
+
+
+@leaf
+def cell_at(numbers, at):
+    """The cell of a sphere, whose numbers begin at `at`."""
+    return np.int64(real(numbers[at])), np.int64(real(numbers[at + 1])), np.int64(real(numbers[at + 2]))
 
 
 @stage
@@ -95,17 +95,10 @@ def fill_cells(machine, k):
     for m in range(size):
         numbers[table + m] = nothing
     for a in range(count):
-        i = np.int64(columns[FIRST + a])
-        x, y, z = (
-            cell_of(r[i, 0], real(numbers[CELL])),
-            cell_of(r[i, 1], real(numbers[CELL])),
-            cell_of(r[i, 2], real(numbers[CELL])),
-        )
-        numbers[cells + 3 * a], numbers[cells + 3 * a + 1], numbers[cells + 3 * a + 2] = (
-            nothing + x,
-            nothing + y,
-            nothing + z,
-        )
+        i, cell = np.int64(columns[FIRST + a]), cells + 3 * a
+        for c in range(3):
+            numbers[cell + c] = nothing + np.floor(real(r[i, c]) / real(numbers[CELL]))
+        x, y, z = cell_at(numbers, cell)
         m = table + place_in_table(x, y, z, size)
         numbers[before + a], numbers[m] = numbers[m], nothing + (a + 1)
 
@@ -119,13 +112,10 @@ def forget_touches(machine, k):
     count, size = np.int64(columns[SPHERES]), np.int64(real(numbers[TABLE_SIZE]))
     kept, nothing = RADII + size + 5 * count, 0.0 * numbers[STIFFNESS]
     touching = np.int64(real(numbers[KEPT]))
-    if touching > KEPT_OF_EACH * count:  # more than there was room for
-        for place in range(count * np.int64(columns[PLANES]) + count * (count - 1) // 2):
-            elements.depth[k, place], elements.proposal[k, place] = nothing - 1.0, nothing
-    else:
-        for m in range(touching):
-            place = np.int64(real(numbers[kept + m]))
-            elements.depth[k, place], elements.proposal[k, place] = nothing - 1.0, nothing
+    more = touching > KEPT_OF_EACH * count  # than there was room for: all are forgotten
+    for m in range(count * np.int64(columns[PLANES]) + count * (count - 1) // 2 if more else touching):
+        place = m if more else np.int64(real(numbers[kept + m]))
+        elements.depth[k, place], elements.proposal[k, place] = nothing - 1.0, nothing
     numbers[KEPT] = nothing
 
 
@@ -189,11 +179,7 @@ def look_around(machine, k, a, r, deepest, t):
     count, size = np.int64(columns[SPHERES]), np.int64(real(numbers[TABLE_SIZE]))
     table = RADII + count
     before, cells = table + size, table + size + count
-    u, v, w = (
-        np.int64(real(numbers[cells + 3 * a])),
-        np.int64(real(numbers[cells + 3 * a + 1])),
-        np.int64(real(numbers[cells + 3 * a + 2])),
-    )
+    u, v, w = cell_at(numbers, cells + 3 * a)
     for n in range(27):
         x, y, z = u + n % 3 - 1, v + (n // 3) % 3 - 1, w + n // 9 - 1
         b = np.int64(real(numbers[table + place_in_table(x, y, z, size)])) - 1

@@ -201,30 +201,35 @@ def passes_nothing(machine, k, h):
 
 @stage
 def way_of(machine, k, n, h):
-    """(meshes along the way of point n, by how much its middle is beside the chord [m])."""
+    """(number of places at which the way of point n is looked at, none where it is short; of pieces; how far it is beside the chord of a
+    piece, at most)."""
     ground = record_at(machine).elements.number[k, GROUND:]
     _, p = overlap_at(machine, k, n, 0.0, h)
     _, q = overlap_at(machine, k, n, 0.5, h)
     _, r = overlap_at(machine, k, n, 1.0, h)
     x, y, z = q[0] - 0.5 * (p[0] + r[0]), q[1] - 0.5 * (p[1] + r[1]), q[2] - 0.5 * (p[2] + r[2])
-    return meshes(ground, p, q) + meshes(ground, q, r), np.sqrt(x * x + y * y + z * z)
+    way = meshes(ground, p, q) + meshes(ground, q, r)
+    if not 1.0 < way < np.inf:
+        return 0, 0, 0.0
+    count = np.int64(np.ceil(IN_A_MESH * way))
+    pieces = (count + IN_A_PIECE - 1) // IN_A_PIECE
+    return count, pieces, 4.0 * np.sqrt(x * x + y * y + z * z) / (pieces * pieces)
 
 
 @stage
-def piece_between(machine, k, n, begin, end, beside, h):
-    """(whether point n is clear of the ground from the share `begin` to `end`, how far its overlap may bend there).
-
-    beside : how far its way is beside its chord, at most."""
+def piece_of(machine, k, n, piece, count, beside, h):
+    """(first and last place of a piece of the way of point n, whether it is clear of the ground there, how far its overlap may bend)."""
+    first, last = piece * IN_A_PIECE, min(count, (piece + 1) * IN_A_PIECE)
     numbers = record_at(machine).elements.number[k]
     ground, ball = numbers[GROUND:], ball_of(machine, k)
-    _, p = overlap_at(machine, k, n, begin, h)
-    _, q = overlap_at(machine, k, n, end, h)
+    _, p = overlap_at(machine, k, n, first / count, h)
+    _, q = overlap_at(machine, k, n, last / count, h)
     around = ball + beside
     highest, bend = look_at_heights(
         ground, min(p[0], q[0]) - around, max(p[0], q[0]) + around, min(p[1], q[1]) - around, max(p[1], q[1]) + around
     )
     way = meshes(ground, p, q)
-    return min(p[2], q[2]) - around > highest, bend * way * way / 8.0 + beside
+    return first, last, min(p[2], q[2]) - around > highest, bend * way * way / 8.0 + beside
 
 
 @stage
@@ -232,15 +237,10 @@ def first_other_side(machine, k, n, theta, h):
     """The first share behind θ at which point n is on the other side than in the accepted state; NEVER where it is not seen on it."""
     record = record_at(machine)
     touches = real(record.elements.memory[k, n]) > 0.0
-    way, beside = way_of(machine, k, n, h)
-    if not 1.0 < way < np.inf:
-        return NEVER
-    count = np.int64(np.ceil(IN_A_MESH * way))
-    pieces = (count + IN_A_PIECE - 1) // IN_A_PIECE
+    count, pieces, beside = way_of(machine, k, n, h)
     side = 1.0 if touches else -1.0
     for piece in range(np.int64(theta * count) // IN_A_PIECE, pieces):
-        begin, last = piece * IN_A_PIECE, min(count, (piece + 1) * IN_A_PIECE)
-        is_clear, bend = piece_between(machine, k, n, begin / count, last / count, 4.0 * beside / (pieces * pieces), h)
+        begin, last, is_clear, bend = piece_of(machine, k, n, piece, count, beside, h)
         if is_clear and not touches:
             continue
         f, g = -np.inf, overlap_at(machine, k, n, begin / count, h)[0] * side
@@ -263,17 +263,14 @@ def first_other_side(machine, k, n, theta, h):
 @stage
 def share_ahead(machine, k, n, h):
     """Up to which share of a step of length h point n may go on: as far as the ground is about a parabola, and a mesh in any case."""
-    way, beside = way_of(machine, k, n, h)
-    if not 1.0 < way < np.inf:
+    count, pieces, beside = way_of(machine, k, n, h)
+    if count == 0:
         return 1.0
-    count = np.int64(np.ceil(IN_A_MESH * way))
-    pieces = (count + IN_A_PIECE - 1) // IN_A_PIECE
     first = overlap_at(machine, k, n, 0.0, h)[0]
     slope = overlap_at(machine, k, n, 1.0 / count, h)[0] - first
     most, away = 0.0, 0.0
     for piece in range(pieces):
-        begin, last = piece * IN_A_PIECE, min(count, (piece + 1) * IN_A_PIECE)
-        _, bend = piece_between(machine, k, n, begin / count, last / count, 4.0 * beside / (pieces * pieces), h)
+        begin, last, _, bend = piece_of(machine, k, n, piece, count, beside, h)
         if bend <= SLIGHT * first:
             continue
         f, g = np.nan, overlap_at(machine, k, n, begin / count, h)[0]
@@ -291,15 +288,10 @@ def share_ahead(machine, k, n, h):
 @stage
 def deepest_between(machine, k, n, h):
     """(share, overlap) of point n where it is deepest within the step."""
-    way, beside = way_of(machine, k, n, h)
+    count, pieces, beside = way_of(machine, k, n, h)
     deepest, share = -np.inf, 0.0
-    if not 1.0 < way < np.inf:
-        return share, deepest
-    count = np.int64(np.ceil(IN_A_MESH * way))
-    pieces = (count + IN_A_PIECE - 1) // IN_A_PIECE
     for piece in range(pieces):
-        begin, last = piece * IN_A_PIECE, min(count, (piece + 1) * IN_A_PIECE)
-        is_clear, bend = piece_between(machine, k, n, begin / count, last / count, 4.0 * beside / (pieces * pieces), h)
+        begin, last, is_clear, bend = piece_of(machine, k, n, piece, count, beside, h)
         at_begin, at_end = overlap_at(machine, k, n, begin / count, h)[0], overlap_at(machine, k, n, last / count, h)[0]
         if is_clear or bend <= SLIGHT * np.abs(max(at_begin, at_end)):
             continue

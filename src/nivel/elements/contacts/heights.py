@@ -9,11 +9,23 @@ the ground, and friction is across the mean of these normals, weighted by the fo
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from nivel.elements.contacts.ground import CYLINDER, KIND, SHAPE, ball_radius, end_sign, is_above, shape_point
+from nivel.elements.contacts.contact import Contact
+from nivel.elements.contacts.ground import (
+    CYLINDER,
+    KIND,
+    SHAPE,
+    ball_radius,
+    end_sign,
+    ground_shape,
+    is_above,
+    shape_point,
+)
 from nivel.elements.contacts.law import (
     COUNT,
     MARKER,
@@ -23,19 +35,23 @@ from nivel.elements.contacts.law import (
     POINT,
     SPEED,
     SUMS,
+    Points,
     begin_contact,
+    mean_speed,
     needs_speed,
-    note_mean_speed,
+    note_speed,
     press,
     report_contact,
     seen,
     times,
 )
+from nivel.elements.contacts.shapes import ball_of_shape, corners_of_parts
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
 from nivel.kernels.elements.patch import axis, minus, plus
 from nivel.kernels.record.hook import FAMILIES, family
 from nivel.kernels.record.record import Elements, record_at
+from nivel.machine.bodies.touching import Touching
 from nivel.native.function import leaf, part, stage
 
 if TYPE_CHECKING:
@@ -299,7 +315,7 @@ def apply_over_heights(machine, number, t):
             for n in range(elements.columns[k, COUNT]):
                 depth = find_point_over_ground(machine, k, n)
                 if needs_speed(machine, k, n, depth):
-                    note_mean_speed(machine, k)
+                    note_speed(machine, k, mean_speed(machine, k, n))
                 total = plus(total, times(press(machine, k, n, depth, t), numbers[NORMAL:SPEED]))
             squared = total[0] * total[0] + total[1] * total[1] + total[2] * total[2]
             if real(squared) > 0.0:
@@ -316,3 +332,12 @@ def rows_over_heights(elements: Elements) -> tuple[int, int]:
         if FAMILIES.get(int(address)) is apply_over_heights:
             return int(first), int(last)
     return 0, 0
+
+
+def points_over_heights(force: Contact, bodies: Sequence[Touching]) -> Points:
+    """Of a shape on ground with heights."""
+    assert force.heights is not None
+    kind, count, size = ground_shape(bodies[0], corners_of_parts)
+    work = [0.0] * (GROUND - NUMBERS)
+    numbers = [*work, *numbers_of(force.heights.heights, force.heights.size)]
+    return Points(count, ball_of_shape(bodies[0]), [kind, NUMBERS + len(numbers)], numbers + size)

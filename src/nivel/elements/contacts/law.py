@@ -12,17 +12,24 @@ marker's point, are functions.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import update_wrapper
+from typing import Any
+
 import numpy as np
 
 from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.elements.contacts.impact import damping_of_restitution, impact
 from nivel.kernels.algebra.analytic import maximum, real, tanh
 from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.core.status import OK
 from nivel.kernels.elements.patch import axis, leave_patch, middle_of, minus, plus, tangents, write_patch
 from nivel.kernels.elements.touch import DEPTH, FORCE, RATE, RUB, SLIP, leave_touch, write_touch
 from nivel.kernels.forces.wrench import add_force_at
 from nivel.kernels.record.function import evaluate_function, evaluate_motion
+from nivel.kernels.record.hook import Family, family
 from nivel.kernels.record.record import NONE, record_at
+from nivel.lazy import dataclass
 from nivel.native.function import leaf, stage
 
 # columns; FUNCTIONS: the first of four, or NONE; SMOOTH: 1 where they are motions, whose rates are known; FRAME: the marker
@@ -93,6 +100,8 @@ STIFFNESS, EXPONENT, LOSS, FRICTION, TRANSITION, RADIUS, POINT, NORMAL, SPEED, O
 )  # fmt: skip
 RUBBED, RUBBING, LOST, GIVEN, POWER, DEEPEST, DEEPEST_RATE, SLIDING, MOVING = 26, 29, 30, 31, 32, 33, 34, 35, 36
 NUMBERS = MOVING + SURFACE_NUMBERS
+# Bodies are far from each other where their balls are apart by this share of the radii.
+FAR = 0.25
 
 
 @stage
@@ -130,6 +139,20 @@ def is_apart(machine, k, gap, rate):
         if followed == 1:
             elements.depth_rate[k, n] = rate
     return True
+
+
+@stage
+def is_far(machine, k):
+    """Whether the balls around both bodies are far from each other: then their distance stands for that of all points."""
+    record = record_at(machine)
+    markers, columns, reach = record.markers, record.elements.columns[k], record.elements.number[k, RADIUS]
+    i, j = columns[MARKER], columns[OTHER]
+    d = minus(markers.r[i], markers.r[j])
+    squared = dot(d, d)
+    if not real(squared) > ((1.0 + FAR) * real(reach)) ** 2:
+        return False
+    distance = np.sqrt(squared)
+    return is_apart(machine, k, distance - reach, -dot(d, minus(markers.rdot[i], markers.rdot[j])) / distance)
 
 
 @stage
@@ -177,13 +200,13 @@ def note_speed(machine, k, v):
 
 
 @stage
-def note_mean_speed(machine, k):
-    """Leave the mean of the velocities of both bodies at the point of contact k as that of the point itself."""
+def mean_speed(machine, k, n):
+    """The mean of the velocities of both bodies at the point of contact k, for that of the point itself."""
     record = record_at(machine)
     bodies, body, columns = record.bodies, record.markers.body, record.elements.columns[k]
     p = record.elements.number[k, POINT:NORMAL]
     v, u = velocity_at(bodies, body[columns[MARKER]], p), velocity_at(bodies, body[columns[OTHER]], p)
-    note_speed(machine, k, (0.5 * (v[0] + u[0]), 0.5 * (v[1] + u[1]), 0.5 * (v[2] + u[2])))
+    return 0.5 * (v[0] + u[0]), 0.5 * (v[1] + u[1]), 0.5 * (v[2] + u[2])
 
 
 @stage
@@ -326,6 +349,46 @@ def report_contact(machine, k):
         if columns[PATCH] != NONE:
             leave_patch(machine, np.int64(columns[PATCH]), np.int64(columns[AXES]), np.int64(columns[COORDINATE]))
         leave_touch(machine, first)
+
+
+def pair(is_far: Callable[..., Any], speed: Callable[..., Any]) -> Callable[[Callable[..., Any]], Family]:
+    """Decorator: what finds the points of a pair of shapes as the family of all such contacts.
+
+    It leaves point n of contact k and the normal there in the numbers, and returns the overlap: `find(machine, k, n)`. is_far : whether the
+    distance of bounds stands for that of all points, `is_far(machine, k)`. speed : velocity of the point itself, `speed(machine, k, n)`.
+    """
+
+    def family_of(find: Callable[..., Any]) -> Family:
+        find_point = stage(find)
+
+        def touch(machine, number, t):
+            elements = record_at(machine).elements
+            for k in range(elements.span[number, 0], elements.span[number, 1]):
+                begin_contact(machine, k, t)
+                if not is_far(machine, k):
+                    for n in range(elements.columns[k, COUNT]):
+                        depth = find_point(machine, k, n)
+                        if needs_speed(machine, k, n, depth):
+                            note_speed(machine, k, speed(machine, k, n))
+                        press(machine, k, n, depth, t)
+                report_contact(machine, k)
+            return OK
+
+        update_wrapper(touch, find)
+        vars(touch).pop("__wrapped__")  # whose arguments Numba would take for its own
+        return family(touch)
+
+    return family_of
+
+
+@dataclass(frozen=True)
+class Points:
+    """Points of a pair: how many, radius [m] of the balls that hold both shapes, and what its family has behind the law."""
+
+    count: int
+    radius: float
+    columns: list[int]
+    numbers: list[float]
 
 
 def law_numbers(force: Contact | Contacts, stiffness: float | None, radius: float) -> list[float]:

@@ -9,18 +9,11 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from nivel.elements.contacts import ellipsoids, ground, height_way, heights, hulls, rounds
-from nivel.elements.contacts import law as contact_law
 from nivel.elements.contacts.contact import WORK, Contact, Contacts, Material
-from nivel.elements.contacts.law import law_numbers
+from nivel.elements.contacts.law import Points, law_numbers
 from nivel.elements.contacts.shapes import (
-    ball_of_shape,
-    corners_of,
-    corners_of_parts,
-    distance_numbers,
-    ground_shape,
     hull_of,
     part_of,
-    polytope_of,
     shape_marker,
 )
 from nivel.elements.forces.actuators import Stop
@@ -31,9 +24,7 @@ from nivel.kernels.elements.touch import DEPTH, LOST, RATE
 from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE
-from nivel.lazy import dataclass
-from nivel.machine.bodies.shape import Capsule, Cylinder, Ellipsoid, Sphere
-from nivel.machine.bodies.solids import length
+from nivel.machine.bodies.shape import Cylinder, Ellipsoid, Sphere
 from nivel.machine.bodies.touching import Touching
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.time_function import TimeFunction, check_smooth
@@ -90,76 +81,13 @@ def family_of(machine: MachineRecord, force: Contact) -> Family:
     return rounds.apply
 
 
-@dataclass(frozen=True)
-class Points:
-    """Points of a pair: how many, radius [m] of the balls that hold both shapes, and what its family has behind the law."""
-
-    count: int
-    radius: float
-    columns: list[int]
-    numbers: list[float]
-
-
-def _over_plane(force: Contact, bodies: Sequence[Touching]) -> Points:
-    kind, count, size = ground_shape(bodies[0], corners_of)
-    return Points(count, ball_of_shape(bodies[0]), [kind], size)
-
-
-def _over_heights(force: Contact, bodies: Sequence[Touching]) -> Points:
-    assert force.heights is not None
-    kind, count, size = ground_shape(bodies[0], corners_of_parts)
-    work = [0.0] * (heights.GROUND - contact_law.NUMBERS)
-    numbers = [*work, *heights.numbers_of(force.heights.heights, force.heights.size)]
-    return Points(count, ball_of_shape(bodies[0]), [kind, contact_law.NUMBERS + len(numbers)], numbers + size)
-
-
-def _of_spheres(force: Contact, bodies: Sequence[Touching]) -> Points:
-    radii = [ball_of_shape(body) for body in bodies]
-    return Points(1, sum(radii), [], radii)
-
-
-def _of_round(force: Contact, bodies: Sequence[Touching]) -> Points:
-    # a sphere before a capsule: it has one point
-    first = next((k for k, body in enumerate(bodies) if isinstance(body.shape, Sphere)), None)
-    if first is None:
-        first = next(k for k, body in enumerate(bodies) if isinstance(body.shape, Capsule))
-    own, other = bodies[first].shape, bodies[1 - first]
-    assert isinstance(own, Sphere | Capsule)  # the record was checked
-    half = 0.0 if isinstance(own, Sphere) else 0.5 * length(own)
-    kind, numbers = distance_numbers(other, part_of(force, bodies, 1 - first))
-    core = other.shape.radius if isinstance(other.shape, Capsule) else 0.0
-    balls = own.radius + half + ball_of_shape(other)
-    return Points(2 if half > 0.0 else 1, balls, [], [float(first), own.radius, half, core, float(kind), *numbers])
-
-
-def _of_ellipsoid(force: Contact, bodies: Sequence[Touching]) -> Points:
-    first = next(k for k, body in enumerate(bodies) if isinstance(body.shape, Ellipsoid))
-    own, core, kind, balls = bodies[first].shape, 0.0, ellipsoids.POLYTOPE, math.inf
-    assert isinstance(own, Ellipsoid)
-    # the half-space below z = 0: a face alone
-    numbers = [0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]
-    if force.bodies is not None:
-        other, balls = bodies[1 - first], sum(ball_of_shape(body) for body in bodies)
-        match other.shape:
-            case Ellipsoid():
-                kind, numbers = ellipsoids.ELLIPSOID, list(other.shape.semi_axes)
-            case Sphere():
-                core, numbers = other.shape.radius, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]
-            case Capsule():
-                ends = [0.0, 0.0, -0.5 * length(other.shape), 0.0, 0.0, 0.5 * length(other.shape)]
-                core, numbers = other.shape.radius, [2.0, 0.0, 1.0, *ends, *ends]
-            case _:
-                numbers = polytope_of(other, part_of(force, bodies, 1 - first))
-    return Points(1, balls, [], [float(first), *own.semi_axes, float(kind), core, *numbers])
-
-
 # by what finds the points
 PAIRS: Final[dict[Family, Callable[[Contact, Sequence[Touching]], Points]]] = {
-    ground.apply: _over_plane,
-    ground.apply_to_spheres: _of_spheres,
-    heights.apply_over_heights: _over_heights,
-    rounds.apply: _of_round,
-    ellipsoids.apply_to_ellipsoids: _of_ellipsoid,
+    ground.apply: ground.points_over_plane,
+    ground.apply_to_spheres: ground.points_of_spheres,
+    heights.apply_over_heights: heights.points_over_heights,
+    rounds.apply: rounds.points_of_round,
+    ellipsoids.apply_to_ellipsoids: ellipsoids.points_of_ellipsoid,
 }
 
 

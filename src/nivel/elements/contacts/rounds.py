@@ -11,8 +11,11 @@ side is left.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from nivel.elements.contacts.contact import Contact
 from nivel.elements.contacts.law import (
     COUNT,
     MARKER,
@@ -20,21 +23,20 @@ from nivel.elements.contacts.law import (
     NUMBERS,
     OTHER,
     POINT,
-    RADIUS,
-    begin_contact,
-    is_apart,
-    needs_speed,
-    note_mean_speed,
-    press,
-    report_contact,
+    Points,
+    is_far,
+    mean_speed,
+    pair,
     seen,
 )
+from nivel.elements.contacts.shapes import ball_of_shape, part_of, polytope_of
 from nivel.kernels.algebra.analytic import absolute, real
 from nivel.kernels.algebra.spatial import dot
-from nivel.kernels.core.status import OK
 from nivel.kernels.elements.patch import axis, minus
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
+from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere
+from nivel.machine.bodies.solids import box_size, length
+from nivel.machine.bodies.touching import Touching
 from nivel.native.function import leaf, part, stage
 
 # kinds; numbers: half lengths; radius and half length (axis z); half length of a segment along z; of a hull the counts of
@@ -215,24 +217,8 @@ def nearest_of_segment(kind, x, a, half, n):
 # numbers of the pair; SWAPPED: 1 where the round body is the second one; BALL, HALF: its radius and half length; CORE: radius of the other
 # capsule; SHAPE: kind of the other body, then its numbers. The RADIUS of the contact is the sum of those of balls about both markers.
 SWAPPED, BALL, HALF, CORE, SHAPE, NUMBERS_OF_SHAPE = 0, 1, 2, 3, 4, 5
-# Bodies are far from each other where their balls are apart by this share of the radii.
-FAR = 0.25
 # Ends that are as deep, by this share of the radius, are equally deep; an axis turns along a side where its direction has less across.
 EQUAL, ALONG = 1e-9, 1e-12
-
-
-@stage
-def is_far(machine, k):
-    """Whether the balls around both bodies are far from each other: then their distance stands for that of all points."""
-    record = record_at(machine)
-    markers, columns, reach = record.markers, record.elements.columns[k], record.elements.number[k, RADIUS]
-    i, j = columns[MARKER], columns[OTHER]
-    d = minus(markers.r[i], markers.r[j])
-    squared = dot(d, d)
-    if not real(squared) > ((1.0 + FAR) * real(reach)) ** 2:
-        return False
-    distance = np.sqrt(squared)
-    return is_apart(machine, k, distance - reach, -dot(d, minus(markers.rdot[i], markers.rdot[j])) / distance)
 
 
 @leaf
@@ -354,9 +340,9 @@ def note_place(machine, k, j, y, g, sign):
         numbers[NORMAL + a] = sign * (A[a, 0] * g[0] + A[a, 1] * g[1] + A[a, 2] * g[2])
 
 
-@stage
-def find_round_point(machine, k, n):
-    """Where point n of contact k may touch and the normal there, left in the numbers; returns the overlap."""
+@pair(is_far, mean_speed)
+def apply(machine, k, n):
+    """A round body on another one: where its end may touch, or, as the last one whose normal is that of the contact, its deepest point."""
     record = record_at(machine)
     markers, more = record.markers, record.elements.number[k, NUMBERS:]
     i, j, sign = ends_of(machine, k)
@@ -364,7 +350,7 @@ def find_round_point(machine, k, n):
     A = markers.A[j]
     x, a = seen(A, minus(markers.r[i], markers.r[j])), seen(A, axis(markers.A[i], 2))
     t, less = nearest_of_segment(kind, x, a, half, shape), 0.0 * half
-    if n == 1:
+    if n + 1 < record.elements.columns[k, COUNT]:
         t, less = other_end(kind, x, a, half, shape, t, more[BALL])
     y = x[0] + t * a[0], x[1] + t * a[1], x[2] + t * a[2]
     distance, g0, g1, g2 = surface_distance(kind, y, shape)
@@ -376,19 +362,30 @@ def find_round_point(machine, k, n):
     return depth
 
 
-@family
-def apply(machine, number, t):
-    """All contacts of a round body with another one."""
-    elements = record_at(machine).elements
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        begin_contact(machine, k, t)
-        if not is_far(machine, k):
-            for m in range(elements.columns[k, COUNT]):
-                # the deepest point last: its normal is that of the contact
-                n = np.int64(elements.columns[k, COUNT]) - 1 - m
-                depth = find_round_point(machine, k, n)
-                if needs_speed(machine, k, n, depth):
-                    note_mean_speed(machine, k)
-                press(machine, k, n, depth, t)
-        report_contact(machine, k)
-    return OK
+def distance_numbers(body: Touching, part: int | None) -> tuple[int, list[float]]:
+    """Kind and numbers of a shape, in the axes of its marker."""
+    match body.shape:
+        case Box():
+            return BOX, [0.5 * side for side in box_size(body.shape)]
+        case Cylinder():
+            return CYLINDER, [body.shape.radius, 0.5 * length(body.shape)]
+        case Capsule():
+            return SEGMENT, [0.5 * length(body.shape)]
+        case Extrusion() | Mesh():
+            return HULL, polytope_of(body, part)
+    raise ValueError(f"{body.name} has no shape that can touch")
+
+
+def points_of_round(force: Contact, bodies: Sequence[Touching]) -> Points:
+    """Of a sphere or a capsule and another shape."""
+    # a sphere before a capsule: it has one point
+    first = next((k for k, body in enumerate(bodies) if isinstance(body.shape, Sphere)), None)
+    if first is None:
+        first = next(k for k, body in enumerate(bodies) if isinstance(body.shape, Capsule))
+    own, other = bodies[first].shape, bodies[1 - first]
+    assert isinstance(own, Sphere | Capsule)  # the record was checked
+    half = 0.0 if isinstance(own, Sphere) else 0.5 * length(own)
+    kind, numbers = distance_numbers(other, part_of(force, bodies, 1 - first))
+    core = other.shape.radius if isinstance(other.shape, Capsule) else 0.0
+    balls = own.radius + half + ball_of_shape(other)
+    return Points(2 if half > 0.0 else 1, balls, [], [float(first), own.radius, half, core, float(kind), *numbers])

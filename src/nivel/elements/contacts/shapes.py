@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.contacts import ground, rounds
 from nivel.elements.contacts.contact import Contact
 from nivel.errors import Fault, ModelError
 from nivel.lazy import dataclass, scipy
@@ -187,23 +186,6 @@ def ball_of_shape(body: Touching) -> float:
     raise ValueError(f"{body.name} has no shape that can touch")
 
 
-def ground_shape(body: Touching, corners: Callable[[Touching], NDArray[np.float64]]) -> tuple[int, int, list[float]]:
-    """Kind, number of points and numbers of a shape for `nivel.elements.contacts.ground`; `corners` of an extrusion or a mesh."""
-    match body.shape:
-        case Sphere():
-            return ground.SPHERE, 1, [body.shape.radius]
-        case Box():
-            return ground.BOX, 8, [0.5 * side for side in box_size(body.shape)]
-        case Cylinder():
-            return ground.CYLINDER, 8, [body.shape.radius, 0.5 * length(body.shape)]
-        case Capsule():
-            return ground.CAPSULE, 2, [body.shape.radius, 0.5 * length(body.shape)]
-        case Extrusion() | Mesh():
-            found = corners(body)
-            return ground.HULL, len(found), found.ravel().tolist()
-    raise ValueError(f"{body.name} has no shape that can touch")
-
-
 def corners_of(body: Touching) -> NDArray[np.float64]:
     """(n, 3) [m] corners of the convex hull of an extrusion or a mesh, in the frame of the shape: nothing else of it can touch a plane.
 
@@ -230,20 +212,6 @@ def corners_of_parts(body: Touching) -> NDArray[np.float64]:
         return corners_of(body)
     parts = [hull_of(body, part + 1) for part in range(len(body.shape.parts))]
     return np.unique(np.concatenate([each.corners + each.middle for each in parts]).round(9), axis=0)
-
-
-def distance_numbers(body: Touching, part: int | None) -> tuple[int, list[float]]:
-    """Kind and numbers of a shape for `nivel.elements.contacts.rounds`, in the axes of its marker."""
-    match body.shape:
-        case Box():
-            return rounds.BOX, [0.5 * side for side in box_size(body.shape)]
-        case Cylinder():
-            return rounds.CYLINDER, [body.shape.radius, 0.5 * length(body.shape)]
-        case Capsule():
-            return rounds.SEGMENT, [0.5 * length(body.shape)]
-        case Extrusion() | Mesh():
-            return rounds.HULL, polytope_of(body, part)
-    raise ValueError(f"{body.name} has no shape that can touch")
 
 
 def shape_marker(builder: SystemBuilder, body: Touching) -> int:

@@ -15,7 +15,7 @@ from nivel.elements.forces.friction import Friction
 from nivel.elements.forces.springs import JointSpringDamper
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, refuse
 from nivel.exchange.mechanism import Array, Frame
 from nivel.exchange.translation import Notes
 from nivel.files.joint_parts import rotors_of
@@ -114,8 +114,7 @@ def kinematic_tree(machine: MachineRecord) -> KinematicTree:
             what = "a flexible body" if body.flexible is not None else "a point mass"
             faults.append(Fault.at(f"bodies.{body.name}", f"{what} cannot be written; rigid bodies can"))
     faults += [Fault.at(f"beams.{beam.name}", "a beam cannot be written; rigid bodies can") for beam in machine.beams]
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     _grow(tree, bodies, rotors)
     _collect(tree, rotors)
     return tree

@@ -7,7 +7,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.errors import Fault
+from nivel.errors import Fault, refuse
 from nivel.exchange.bodies import (
     MASSLESS,
     Group,
@@ -36,7 +36,7 @@ from nivel.exchange.joint_forces import (
 )
 from nivel.exchange.looks import Drawing
 from nivel.exchange.mechanism import MOST_LINKS, WORLD, Connection, Frame, Inertial, Mechanism
-from nivel.exchange.translation import Names, Translation, number, refuse, triple, turn
+from nivel.exchange.translation import Names, Translation, number, triple, turn
 from nivel.machine.core.placement import frame_from_axes
 from nivel.machine.core.record import GROUND
 

@@ -10,7 +10,6 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.errors import Fault, ModelError
 from nivel.files.mesh_file import stl_content
 from nivel.files.outline import FORMAT
 from nivel.files.writer import write_data
@@ -112,12 +111,6 @@ def _wrapped(text: str) -> list[str]:
 
     indent = " " * (len(text) - len(text.lstrip()) + 2)
     return textwrap.wrap(text, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False) or [""]
-
-
-def refuse(faults: list[Fault]) -> None:
-    """Raises ModelError where there are faults."""
-    if faults:
-        raise ModelError(faults)
 
 
 # kinds of elements that share their names

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.files.body_files import place_body_files, read_mass_properties
 from nivel.files.code import read_python_laws, read_unit_blocks
 from nivel.files.convex_parts import divide_heaps, divide_meshes
@@ -248,8 +248,7 @@ def _record(tree: Tree, parameters: Parameters, made: Elements, known: Known | N
             lines = error.errors(include_url=False)
             tree.faults += [tree.fault(_path_in_file(line["loc"], names), line["msg"]) for line in lines]
         raise ModelError(tree.faults) from None
-    if tree.faults:
-        raise ModelError(tree.faults)
+    refuse(tree.faults)
     return record
 
 

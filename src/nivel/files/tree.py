@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from typing import Any, Final
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.files import nodes
 from nivel.files.nodes import (
     DEEPEST,
@@ -147,8 +147,7 @@ def read_value(text: str) -> Any:
     Raises ModelError.
     """
     tree = read_tree(text, "")
-    if tree.faults:
-        raise ModelError(tree.faults)
+    refuse(tree.faults)
     return tree.data
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
 from nivel.elements.joints.kind import Array, Combination, Composition, JointCoordinate, JointKind, Measured, TreeJoint
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.kernels.bodies.coordinate import ACROSS_Y, ACROSS_Z, ALONG, LEAN_X, LEAN_Y, TWIST
 from nivel.kernels.record import record as kernels
 from nivel.lazy import scipy
@@ -45,8 +45,7 @@ def on_beams(joints: Sequence[Joint], beams: Sequence[Beam]) -> tuple[Joint, ...
             made.append(_on_beam(joint, named))
         except ModelError as error:
             faults += error.faults
-    if faults:
-        raise ModelError(faults)
+    refuse(faults)
     return tuple(made)
 
 

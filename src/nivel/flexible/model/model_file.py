@@ -9,7 +9,7 @@ from typing import Any, Final
 
 from pydantic import ValidationError
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.files.outline import take_format
 from nivel.files.overrides import override
 from nivel.files.sources import read_text
@@ -76,8 +76,7 @@ def parse_model(text: str, file: str = "model.yaml", *, overrides: Mapping[str, 
     except ValidationError as error:
         tree.take(error.errors(include_url=False), partial(_in_file, tree.data))
         raise ModelError(tree.faults) from None
-    if tree.faults:
-        raise ModelError(tree.faults)
+    refuse(tree.faults)
     return Located(record, parameters, tree)
 
 

@@ -210,3 +210,24 @@ def test_by_default_a_clutch_that_locks_has_slopes(tmp_path):
         known = found[f"d({output})/d(parameters.cap)"]
         assert abs(float(known) - slope) <= max(known.attrs["estimated_error"], 1e-6)
         assert known.attrs["estimated_error"] < 1e-4
+
+
+def test_by_default_a_rope_that_catches_a_fall_twice_has_slopes(tmp_path):
+    """A fall of h = l - 0.5 takes t = √(2h/g), the rope τ = 2 (π - atan(v ω/g))/ω to throw it back with v = g t: z = -l + v u - g u²/2
+    with u = T - 3 t - 2 τ. dt/dl = 1/v, dv/dl = g/v, dτ/dl = -2/v/(1 + (v ω/g)²)."""
+    path = tmp_path / "rope.yaml"
+    path.write_text(
+        "format: 1\ngravity: [0, 0, -9.81]\nparameters: {l: 0.8}\nbodies: {b: {mass: 2, inertia: [1, 1, 1], position: [0, 0, -0.5]}}\n"
+        "joints: {g: {type: translational, bodies: [ground, b], point: [0, 0, -0.5], axis: [0, 0, 1]}}\nforces:\n"
+        "  r: {type: rope, bodies: [ground, b], points: [[0, 0, 0], [0, 0, -0.5]], stiffness: 5000, length: l}\n"
+        "simulation: {duration: 0.9}\n"
+    )
+    g, omega = 9.81, 50.0
+    t = np.sqrt(2.0 * 0.3 / g)
+    v, tau = g * t, 2.0 * (np.pi - np.arctan(t * omega)) / omega
+    u = 0.9 - 3.0 * t - 2.0 * tau
+    of_u = -3.0 / v + 4.0 / v / (1.0 + (v * omega / g) ** 2)
+    exact = -1.0 + g / v * u + (v - g * u) * of_u
+    slope = nivel.load(path).gradient("b.position.z", "parameters.l")["d(b.position.z)/d(parameters.l)"]
+    assert slope.attrs["verdict"] == "green"
+    assert abs(float(slope) - exact) <= max(slope.attrs["estimated_error"], 1e-6)

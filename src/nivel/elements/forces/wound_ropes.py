@@ -30,6 +30,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from nivel.elements.forces.shafts import flank
 from nivel.elements.rows import Row, several
 from nivel.kernels.algebra.analytic import arctan2, maximum, real
 from nivel.kernels.algebra.spatial import cross
@@ -91,19 +92,18 @@ def paid_out(machine, k, t, nothing):
 def tension_in(machine, k, stretch, rate, speed):
     """Tension T = k x + d ẋ of the stretch x = s - l, zero where x < 0 or T < 0.
 
-    Where steps are chosen one ends where x passes zero. The rope stores ½ k x², the winch works by -T l̇, and (T - k x) ẋ is dissipated,
-    also where the rope goes slack.
+    Where steps are chosen one ends where x passes zero, up to which the rope is slack or taut as at its begin. The rope stores ½ k x²,
+    the winch works by -T l̇, and (T - k x) ẋ is dissipated, also where the rope goes slack.
     """
     record = record_at(machine)
     elements, control, numbers = record.elements, record.control, record.elements.number[k]
+    followed = record.watched.followed[0]
     elements.depth[k, 0] = stretch
-    if record.watched.followed[0] == 1:
+    if followed == 1:
         elements.depth_rate[k, 0] = rate
-    elastic, tension = 0.0 * stretch, 0.0 * stretch
-    if real(stretch) > 0.0:
-        elastic = numbers[RopeRow.STIFFNESS] * stretch
-        if real(elastic + numbers[RopeRow.DAMPING] * rate) > 0.0:
-            tension = elastic + numbers[RopeRow.DAMPING] * rate
+    tension, elastic, elements.proposal[k, 0] = flank(
+        stretch, rate, numbers[RopeRow.STIFFNESS], numbers[RopeRow.DAMPING], elements.memory[k, 0], followed
+    )
     control.stored[0] += 0.5 * elastic * stretch
     control.power[0] -= tension * speed
     control.power[1] += (tension - elastic) * rate

@@ -130,6 +130,7 @@ def test_with_backlash_the_rotor_runs_through_half_the_play_before_the_joint_mov
         ("backlash: {play: 1 deg, stiffness: 2}", "give its `rotor_inertia` too"),
         ("rotor_inertia: 1, backlash: 1 deg", "`play` and `stiffness` of the flanks were expected"),
         ("stops: {coordinate: x, upper: 1}", "`coordinate` does not belong here"),
+        ("rotor_inertia: 1, backlash: {play: 1 deg, stiffness: 2, free_value: 1}", "`free_value` does not belong here"),
     ],
 )
 def test_what_is_wrong_with_a_part_is_said_at_the_joint(parts, message):

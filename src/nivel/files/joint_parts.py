@@ -71,11 +71,8 @@ def rotors_of(machine: MachineRecord) -> dict[str, tuple[str, str]]:
             continue
         factors = {".".join(resolve(reference, machine.joints)): factor for reference, factor in terms}
         turn = factors.pop(f"{rotor}.angle", None)
-        if (
-            rotor.endswith(f"_{ROTOR}")
-            and turn is not None
-            and [abs(turn)] == [abs(factor) for factor in factors.values()]
-        ):
+        sizes = [abs(factor) for factor in factors.values()]
+        if rotor.endswith(f"_{ROTOR}") and turn is not None and sizes == [abs(turn)]:
             rotors[rotor] = (gear, *factors)
     return rotors
 
@@ -112,8 +109,8 @@ def _which(free: tuple[str, ...], key: str) -> str:
 def _stops(tree: Tree, given: Any, path: Path, angle: bool) -> dict[str, Any] | None:
     if isinstance(given, dict):
         return {"type": "stop", **_own(tree, given, path)}
-    example = "lower: -90 deg, upper: 90 deg, stiffness: 1 kN m/rad, restitution: 0.2"
-    tree.report(path, f"a mapping such as `{{{example}}}` was expected, got {shown(given)}")
+    example = "{lower: -90 deg, upper: 90 deg, stiffness: 1 kN m/rad, restitution: 0.2}"
+    tree.report(path, f"a mapping such as `{example}` was expected, got {shown(given)}")
     return None
 
 
@@ -134,9 +131,9 @@ def _friction(tree: Tree, given: Any, path: Path, angle: bool) -> dict[str, Any]
 
 
 def _own(tree: Tree, given: dict[str, Any], path: Path) -> dict[str, Any]:
-    """The keys of a mapping, without those that the joint fills in."""
-    for key in [key for key in ("type", "coordinate", "against", "ratio") if key in given]:
-        tree.report((*path, key), f"`{key}` does not belong here: it is that of the joint", at_key=True)
+    """The keys of a mapping; those that the joint fills in are refused."""
+    for key in [key for key in FILLED if key in given]:
+        tree.report((*path, key), f"`{key}` does not belong here: the joint says it", at_key=True)
     return {key: value for key, value in given.items() if key not in FILLED}
 
 

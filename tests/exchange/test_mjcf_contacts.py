@@ -126,3 +126,12 @@ def test_what_a_weld_holds_to_the_ground_does_not_touch_it(tmp_path):
     touching = [each.name for each in machine.record.forces if each.type == "contact"]
     assert len(touching) == 2  # the ball and the plane, the ball and what is held
     assert [body.name for body in machine.record.bodies] == ["ball"]
+
+
+def test_solids_that_begin_deep_in_each_other_are_no_pair(tmp_path):
+    ball = '<body name="{0}" pos="{1} 0 1"><freejoint/><geom name="{0}_ball" size=".1"/></body>'
+    bodies = "".join(ball.format(name, x) for name, x in (("one", 0), ("two", 0.1), ("three", 0.299)))
+    (tmp_path / "model.xml").write_text(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>", encoding="utf-8")
+    machine = nivel.import_model(tmp_path / "model.xml")
+    assert [each.name for each in machine.record.forces] == ["one_ball_three_ball", "two_ball_three_ball"]
+    assert any("deep inside each other: one_ball and two_ball" in each for each in machine.record.left_out)

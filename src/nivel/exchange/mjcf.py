@@ -104,7 +104,7 @@ def mechanism_here(
     reader = _Reader(mj, model, data, mechanism, off)
     reader.read(base)
     if "contacts" not in off and contacts != "none":
-        read_contacts(mj, model, mechanism, reader.body, reader.solid, contacts)
+        read_contacts(mj, data, mechanism, reader.body, reader.solid, contacts)
     if model.nkey and keyframe is None:
         names = ", ".join(model.key(k).name or str(k) for k in range(model.nkey))
         mechanism.notes.leave(f"keyframes ({model.nkey}); `--keyframe NAME` starts at one: {names}")

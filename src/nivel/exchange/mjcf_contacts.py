@@ -20,15 +20,22 @@ FREE: Final = 0  # mjtJoint
 BISECTIONS: Final = 60
 GRAVITY: Final = 9.81  # m/s²: the load where the model has no weight
 CLIP: Final = 1e-4  # impedances are kept by so much from 0 and 1, as in MuJoCo
+DEEP: Final = 0.01  # of the size of the model: solids that begin deeper in each other are no parts that touch
+INSIDE: Final = "contacts of solids that begin deep inside each other"
 MARGINS, DIRECTIONS = "margins of contacts", "friction of contacts by direction"
 TURNS: Final = "friction of contacts against rolling has a limit of its own, that of MuJoCo shares one with sliding"
 
 
 def read_contacts(
-    mj: Any, m: Any, mechanism: Mechanism, body: Callable[[int], str], look_of: Callable[[int], Look | None], kept: str
+    mj: Any, d: Any, mechanism: Mechanism, body: Callable[[int], str], look_of: Callable[[int], Look | None], kept: str
 ) -> None:
-    """Add the solids and the pairs that touch. kept : `all`, or `floor`: what touches the ground alone."""
+    """Add the solids and the pairs that touch, as placed in the data `d`. kept : `all`, or `floor`: what touches the ground alone."""
+    m = d.model
     names = _names(m, body)
+    mj.mj_comPos(m, d)
+    mj.mj_collision(m, d)
+    depths = zip(d.contact.geom.tolist(), d.contact.dist.tolist(), strict=True)
+    deep = {frozenset(geoms) for geoms, distance in depths if distance < -DEEP * m.stat.extent}
     solids: dict[int, Solid | None] = {}
     skipped = 0
     for first, second, given in _pairs(mj, m):
@@ -44,7 +51,11 @@ def read_contacts(
                     kind = mj.mjtGeom(int(m.geom_type[g])).name.removeprefix("mjGEOM_").lower()
                     mechanism.notes.leave(f"contacts of geoms of type {kind}", names[g], acts=True)
         one, two = solids[first], solids[second]
-        if one is None or two is None or (one.look.kind == "plane" and two.look.kind == "plane"):
+        planes = [each.look.kind for each in (one, two) if each is not None].count("plane")
+        if one is None or two is None or planes == 2:
+            continue
+        if frozenset((first, second)) in deep and not planes:  # out of a plane a model is raised
+            mechanism.notes.leave(INSIDE, f"{one.name} and {two.name}", acts=True)
             continue
         mechanism.solids |= {one.name: one, two.name: two}
         mechanism.touches.append(_touch(m, first, second, given, (one.name, two.name), mechanism))

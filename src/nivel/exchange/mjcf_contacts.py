@@ -34,8 +34,7 @@ def read_contacts(
     names = _names(m, body)
     mj.mj_comPos(m, d)
     mj.mj_collision(m, d)
-    depths = zip(d.contact.geom.tolist(), d.contact.dist.tolist(), strict=True)
-    deep = {frozenset(geoms) for geoms, distance in depths if distance < -DEEP * m.stat.extent}
+    deep = set(map(frozenset, d.contact.geom[d.contact.dist < -DEEP * m.stat.extent].tolist()))
     solids: dict[int, Solid | None] = {}
     skipped = 0
     for first, second, given in _pairs(mj, m):

@@ -106,7 +106,7 @@ class Tendons:
         m, notes, name = self.m, self.mechanism.notes, tendon.name
         way: list[tuple[str, Array, float]] = []
         axes: list[Array] = []
-        seen = [np.array(self._global(w)) for w in places]
+        seen = [self._global(w) for w in places]
         if any(m.wrap_type[w] == PULLEY for w in places) or pulled:
             notes.leave("tendons around wheels with pulleys or actuators", name, acts=True)
             return
@@ -118,16 +118,11 @@ class Tendons:
             centre, before, behind = seen[k], seen[k - 1], seen[k + 1]
             side = int(m.wrap_prm[w])
             along = (behind - before) / np.linalg.norm(behind - before)
-            passed = (
-                self.d.site_xpos[side] - centre
-                if side >= 0
-                else before + along * float((centre - before) @ along) - centre
-            )
+            at = self.d.site_xpos[side] if side >= 0 else before + along * float((centre - before) @ along)
+            passed = at - centre
             if kind == SPHERE:
-                axis = np.cross(passed, along)
                 notes.leave(PLANE, name, acts=True)
-            else:
-                axis = self.d.geom_xmat[number_of].reshape(3, 3)[:, 2]
+            axis = np.cross(passed, along) if kind == SPHERE else self.d.geom_xmat[number_of].reshape(3, 3)[:, 2]
             if not np.linalg.norm(axis):
                 notes.leave("tendons through the middle of a sphere", name, acts=True)
                 return
@@ -140,13 +135,11 @@ class Tendons:
                 notes.leave("tendons that wrap around the inside of a wheel", name, acts=True)
                 return
             sign = 1.0 if float(np.cross(passed, along) @ axes[0]) >= 0.0 else -1.0
-            at = np.array(m.geom_pos[number_of], dtype=float)
-            way.append((self.body(int(m.geom_bodyid[number_of])), at, sign * radius))
-        axis = axes[0] if axes else None
+            way.append((self.body(int(m.geom_bodyid[number_of])), m.geom_pos[number_of].copy(), sign * radius))
         parts = [("", tendon.stiffness, tendon.damping, tendon.free[1])] if tendon.stiffness else []
         parts += [("_end", 0.0, 0.0, tendon.ends[1])] if tendon.ends is not None else []
         for suffix, stiffness, damping, length in parts:
-            self.mechanism.ropes.append(Rope(name + suffix, way, axis, length, stiffness, damping))
+            self.mechanism.ropes.append(Rope(name + suffix, way, axes[0] if axes else None, length, stiffness, damping))
         notes.change(ROPES, name)
 
     def _global(self, w: int) -> Array:

@@ -168,8 +168,7 @@ def _dependent(run: Run, motion: MotionEquations, names: list[str], frame: int) 
     """Those of these contacts whose slips and spins in a frame follow from those of the others."""
     system, result = motion.system, run.result
     own = [k for k, each in enumerate(system.frictions) if each.rpartition(".")[0] in names]
-    bodies = slice(0, system.body_count)
-    R, theta = (result.array(what)[frame][bodies] for what in ("position", "orientation"))
+    R, theta = (result.array(what)[frame][: system.body_count] for what in ("position", "orientation"))
     still = np.zeros((system.body_count, 3))
     motion.evaluate(float(result.time[frame]), system.state(np.hstack([R, theta]).ravel(), still, still))
     places = [int(system.record.friction.columns[k, columns.COORDINATE]) for k in own]

@@ -22,7 +22,7 @@ HEAD: Final = """# Written by `python packaging/write_settings.py` from the reco
 # pyright: reportOptionalMemberAccess=false
 """
 # packages besides nivel that are imported late, with their modules
-LATE: Final = """PIL.Image distributed gymnasium.vector imageio_ffmpeg matplotlib matplotlib.figure matplotlib.pyplot
+LATE: Final = """PIL.Image distributed gymnasium.vector h5py imageio_ffmpeg matplotlib matplotlib.figure matplotlib.pyplot
 meshio numpy pint pyarrow rich.box rich.console rich.live rich.progress rich.table rich.text scipy
 scipy.integrate scipy.interpolate scipy.io scipy.linalg scipy.optimize scipy.signal scipy.sparse
 scipy.sparse.csgraph scipy.sparse.linalg scipy.spatial scipy.spatial.transform scipy.stats skfem

@@ -39,8 +39,8 @@ class Late:
         return value
 
 
-PIL, distributed, gymnasium, imageio_ffmpeg, matplotlib, meshio, nivel = map(
-    Late, ("PIL", "distributed", "gymnasium", "imageio_ffmpeg", "matplotlib", "meshio", "nivel")
+PIL, distributed, gymnasium, h5py, imageio_ffmpeg, matplotlib, meshio, nivel = map(
+    Late, ("PIL", "distributed", "gymnasium", "h5py", "imageio_ffmpeg", "matplotlib", "meshio", "nivel")
 )
 numpy, pint, pyarrow, rich, scipy, skfem, websockets, xarray = map(
     Late, ("numpy", "pint", "pyarrow", "rich", "scipy", "skfem", "websockets", "xarray")

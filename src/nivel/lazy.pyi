@@ -18,6 +18,7 @@ def provided(subject: str) -> Any: ...
 import PIL.Image
 import distributed
 import gymnasium.vector
+import h5py
 import imageio_ffmpeg
 import matplotlib
 import matplotlib.figure
@@ -262,4 +263,4 @@ import websockets.exceptions
 import websockets.sync.client
 import xarray
 
-__all__ = ['Late', 'PIL', 'PLACES', 'asdict', 'dataclass', 'distributed', 'field', 'fields', 'gymnasium', 'imageio_ffmpeg', 'is_dataclass', 'matplotlib', 'meshio', 'nivel', 'numpy', 'pint', 'provide', 'provided', 'pyarrow', 'replace', 'rich', 'scipy', 'skfem', 'websockets', 'xarray']
+__all__ = ['Late', 'PIL', 'PLACES', 'asdict', 'dataclass', 'distributed', 'field', 'fields', 'gymnasium', 'h5py', 'imageio_ffmpeg', 'is_dataclass', 'matplotlib', 'meshio', 'nivel', 'numpy', 'pint', 'provide', 'provided', 'pyarrow', 'replace', 'rich', 'scipy', 'skfem', 'websockets', 'xarray']

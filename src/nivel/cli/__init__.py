@@ -57,7 +57,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
 
 ONE_THREAD: Final = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 # Between two looks for cycles. Modules, records and tables have none and stay: looks at every 700 take a tenth of a short run.
-NEW_OBJECTS: Final = 20_000
+NEW_OBJECTS: Final = 500_000
 
 
 class LazyGroup(click.Group):

@@ -14,13 +14,13 @@ from pathlib import Path
 from shutil import copyfile
 from typing import Any
 
-import h5py
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError, SolveError
 from nivel.files.target import Space, check_target, reason_of, status, written
 from nivel.integrate.loop.sink import Header
+from nivel.lazy import h5py
 from nivel.native.store import whole
 from nivel.results.frames.contents import Contents, MemoryContents, name_in_file, resolved, shape_of
 from nivel.results.frames.stored import StoredContents

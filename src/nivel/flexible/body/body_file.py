@@ -10,7 +10,6 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any, Final
 
-import h5py
 import numpy as np
 
 from nivel import __version__
@@ -18,6 +17,7 @@ from nivel.errors import ModelError
 from nivel.files.target import write_file
 from nivel.flexible.body.body import Array, Interface, LeftOut, MeshError, ReducedBody, StressModes
 from nivel.flexible.body.invariants import UNITS, Invariants
+from nivel.lazy import h5py
 
 KIND: Final = "flexible body"
 FORMAT: Final = 1

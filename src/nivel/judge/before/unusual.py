@@ -133,7 +133,8 @@ def in_words(value: float, usual: Usual) -> str:
 def _of_fields(record: Record, place: str) -> Iterator[Finding]:
     """What is unusual in the fields of a record, and of those that it holds."""
     start = f"{place}." if place else ""
-    for name, key, usual in _usual_in(type(record)):
+    kind: Any = type(record)
+    for name, key, usual in _usual_in(kind):
         value = getattr(record, name)
         if usual is not None:
             yield from _of_value(value, usual, f"{start}{key}", key)

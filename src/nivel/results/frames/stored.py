@@ -9,12 +9,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
-import h5py
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
-from nivel.lazy import replace
+from nivel.lazy import h5py, replace
 from nivel.results.frames.contents import MemoryContents, check_format, name_in_file, name_of, written_by_newer
 from nivel.results.frames.json_forms import FORMS, misshapen, strangers
 from nivel.system.layout import Variable

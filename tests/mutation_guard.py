@@ -116,8 +116,6 @@ COVER = {
     "kernels/forces/": (
         *verification("springs", "everyday_forces", "contact", "element_references", "motors", "drives", "loads"), *STATES,
     ),
-    "kernels/forces/ancf": verification("gradient_beams"),
-    "kernels/forces/beam": (*verification("statics_beams"), *BEAMS),
     "elements/contacts/": (*verification("contact", "contact_location", "pairs_of_shapes", "contact_that_sticks"), *STATES),
     "elements/contacts/hulls": (*verification("contact_of_hulls", "contact_of_two_hulls"), *STATES),
     "elements/contacts/pressure_cells": (*verification("contact_of_hulls", "contact_of_two_hulls"), *STATES),
@@ -125,6 +123,8 @@ COVER = {
     "elements/contacts/heap": (*verification("contacts_of_many"), *STATES),
     "elements/contacts/ellipsoids": (*verification("ellipsoids", "pairs_of_shapes"), *STATES),
     "elements/forces/ropes": (*verification("ropes"), *STATES),
+    "elements/beams/": (*verification("statics_beams"), *BEAMS),
+    "elements/beams/ancf": verification("gradient_beams"),
     "elements/circuits/": HYDRAULICS,
     "kernels/output/": (*verification("consistency", "motion", "redundant_loops"), "flexible/test_flexible_motion.py"),
     "kernels/record/": ("machine/test_time_functions.py", "system/test_programs.py", *verification("drivers", "laws", "control"), *STATES),

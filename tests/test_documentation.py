@@ -24,6 +24,9 @@ from nivel import (
     SimulationSettings,
 )
 from nivel.cli.failures import fault_line
+from nivel.elements.beams import sections
+from nivel.elements.beams.beam import Beam
+from nivel.elements.beams.sections import GeneralSection
 from nivel.elements.contacts.contact import Material
 from nivel.elements.contacts.height_field import HeightField
 from nivel.elements.forces import FORCES
@@ -35,9 +38,6 @@ from nivel.files.joint_parts import DESCRIBED as PARTS_OF_JOINTS
 from nivel.files.outline import FILE_WORDS, SETS, TOP_WORDS
 from nivel.files.writer import write_machine
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.machine.beams import section as sections
-from nivel.machine.beams.beam import Beam
-from nivel.machine.beams.beam_section import GeneralSection
 from nivel.machine.bodies.inertia import Inertia
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Mesh, Sphere, Tube
 from nivel.machine.core.orientation import SEQUENCES, Orientation

@@ -12,6 +12,7 @@ from click import Context
 
 from needing import needs
 from nivel.cli import main
+from nivel.elements.beams.sections import Material, SectionRecord
 from nivel.flexible.body.body_file import write_body
 from nivel.flexible.model.model_file import TOP_WORDS, parse_model, read_model
 from nivel.flexible.model.records import (
@@ -26,7 +27,6 @@ from nivel.flexible.model.records import (
 )
 from nivel.flexible.model.solid_records import Part, Solid
 from nivel.flexible.reduce import reduce, reduce_model
-from nivel.machine.beams.section import Material, SectionRecord
 from nivel.machine.core.record import field_words
 
 ROOT = Path(__file__).parent.parent

@@ -79,7 +79,7 @@ def _line(title: str, record: Any, without: Any) -> str:
 
 def _title(record: Any) -> str:
     kind = kind_of(record)
-    if kind and record.__module__.startswith("nivel.machine.beams"):
+    if kind and record.__module__.startswith("nivel.elements.beams"):
         return f"{kind} section"
     return kind or re.sub(r"(?<=[a-z])(?=[A-Z])", " ", record.__name__).lower()
 

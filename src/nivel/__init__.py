@@ -38,7 +38,7 @@ _NAMES = {
     "nivel.errors": "ModelError NivelError SolveError",
     "nivel.live.opening": "export_page",
     "nivel.machine.assembly_settings": "AssemblySettings",
-    "nivel.machine.beams.beam": "Beam",
+    "nivel.elements.beams.beam": "Beam",
     "nivel.machine.bodies.body": "Body",
     "nivel.machine.control.block": "Block",
     "nivel.machine.core.marker": "Marker",

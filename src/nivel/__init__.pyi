@@ -45,7 +45,7 @@ from nivel.errors import NivelError as NivelError
 from nivel.errors import SolveError as SolveError
 from nivel.live.opening import export_page as export_page
 from nivel.machine.assembly_settings import AssemblySettings as AssemblySettings
-from nivel.machine.beams.beam import Beam as Beam
+from nivel.elements.beams.beam import Beam as Beam
 from nivel.machine.bodies.body import Body as Body
 from nivel.machine.control.block import Block as Block
 from nivel.machine.core.marker import Marker as Marker

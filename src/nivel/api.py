@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
 from nivel.analysis.progress.log import Listener
+from nivel.elements.beams.beam import Beam
 from nivel.elements.circuits import HydraulicComponent
 from nivel.elements.circuits.fluids import AnyFluid
 from nivel.elements.forces import Force
@@ -23,7 +24,6 @@ from nivel.files.reader import Origin, parse_machine, read_text
 from nivel.files.values import outside_paths
 from nivel.lazy import nivel, numpy, xarray
 from nivel.machine.assembly_settings import AssemblySettings
-from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.control.block import Block
 from nivel.machine.core.marker import Marker

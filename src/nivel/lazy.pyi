@@ -206,8 +206,8 @@ import nivel.results.trust
 import nivel.studies
 import nivel.system
 import nivel.system.beams
-import nivel.system.beams.elements
-import nivel.system.beams.segments
+import nivel.elements.beams.exact
+import nivel.elements.beams.segments
 import nivel.system.circuit_elements
 import nivel.system.circuit_tangent
 import nivel.system.elimination

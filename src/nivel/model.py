@@ -8,6 +8,7 @@ from html import escape
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
+from nivel.elements.beams.beam import Beam
 from nivel.elements.circuits import HydraulicComponent
 from nivel.elements.circuits.fluids import AnyFluid
 from nivel.elements.control import ControlBlock
@@ -26,7 +27,6 @@ from nivel.files.writer import write_machine
 from nivel.judge.before.unusual import remarks
 from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.assembly_settings import AssemblySettings
-from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.changes import changed
 from nivel.machine.core.marker import Marker

@@ -58,7 +58,7 @@ def test_no_vibration_of_the_beam_is_faster_than_that_of_an_element(order):
     """Irons and Treharne 1971. Frequencies of the whole bar along itself, from stiffness and mass put together here."""
     from scipy.linalg import eigh
 
-    from nivel.system.beams.elements import gauss, lagrange
+    from nivel.elements.beams.exact import gauss, lagrange
 
     count, length = 6, 0.5
     (N, w), (D, v) = (

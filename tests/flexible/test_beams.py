@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
+from nivel.elements.beams.sections import Box, Circle, IBeam, Material, Rectangle, Tube, Values, section_of
 from nivel.flexible.model.beam import Beam, end_stress, geometric_stiffness, mass_matrix, mass_points, stiffness
-from nivel.machine.beams.section import Box, Circle, IBeam, Material, Rectangle, Tube, Values
-from nivel.machine.beams.section_properties import section_of
 
 STEEL = Material(youngs_modulus=210e9, poisson_ratio=0.3, density=7850.0)
 RECTANGLE = section_of(Rectangle(width=0.04, height=0.06), 0.3)

@@ -7,12 +7,11 @@ import scipy.sparse as sp
 
 from models import STEEL, bar, block, reduced
 from needing import needs
+from nivel.elements.beams.sections import Material, Rectangle, section_of
 from nivel.errors import ModelError
 from nivel.flexible.model.beam import Beam, mass_matrix, stiffness
 from nivel.flexible.model.model_file import parse_model
 from nivel.flexible.reduction.factor import Factor, NoStiffnessError
-from nivel.machine.beams.section import Material, Rectangle
-from nivel.machine.beams.section_properties import section_of
 
 
 def faults_of(text, folder="."):

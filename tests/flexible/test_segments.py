@@ -8,9 +8,9 @@ from beams import flying, general
 from checking import check
 from nivel import Beam
 from nivel.analysis.plan.beam_facts import beam_facts
+from nivel.elements.beams.exact import skew
+from nivel.elements.beams.segments import segments_of
 from nivel.errors import ModelError
-from nivel.system.beams.elements import skew
-from nivel.system.beams.segments import segments_of
 from preparing import prepare
 from simulating import machine, simulate
 

@@ -9,6 +9,7 @@ import pytest
 import scipy.sparse as sp
 
 from lanes import tail
+from nivel.elements.beams.sections import Material
 from nivel.errors import ModelError
 from nivel.flexible.foreign.calculix import blocks_of
 from nivel.flexible.foreign.matrix import FormatError
@@ -17,7 +18,6 @@ from nivel.flexible.foreign.read_mesh import read_mesh
 from nivel.flexible.foreign.shells import expansion
 from nivel.flexible.model.solid_elements import elasticity
 from nivel.flexible.reduce import reduce
-from nivel.machine.beams.section import Material
 
 E, DENSITY = 210000.0, 7.85e-9  # N/mm², t/mm³
 MIDDLES = {4: ((0, 1), (1, 2), (2, 3), (3, 0)), 3: ((0, 1), (1, 2), (2, 0))}

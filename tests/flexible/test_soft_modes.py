@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
+from nivel.elements.beams.sections import Material
 from nivel.flexible.checks.findings import _hourglass_statement
 from nivel.flexible.model import solid_shapes as shapes
 from nivel.flexible.model.solid_elements import SolidBlock, SolidElements, elasticity
 from nivel.flexible.reduce import reduce
 from nivel.flexible.reduction.factor import NoStiffnessError, lowest_modes
-from nivel.machine.beams.section import Material
 from test_shells import by_calculix, deck, model_file
 
 STEEL = Material.model_construct(youngs_modulus=210e9, poisson_ratio=0.3, density=7850.0)

@@ -7,7 +7,7 @@ import pytest
 from refusals import refused
 
 from nivel import Beam
-from nivel.machine.beams.beam import _divided
+from nivel.elements.beams.beam import _divided
 
 STEEL = {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 7850.0}
 ROUND = {"type": "circle", "radius": 0.01}

@@ -17,10 +17,10 @@ from nivel import (
     Stop,
     TorsionalSpringDamper,
 )
+from nivel.elements.beams.sections import Material as BeamMaterial
 from nivel.elements.contacts.contact import Material
 from nivel.elements.forces import FORCES
 from nivel.errors import ModelError
-from nivel.machine.beams.section import Material as BeamMaterial
 from nivel.machine.core.between import GlobalPoint
 
 LINE = {"markers": ("tip", "eye")}

@@ -11,7 +11,7 @@ from lanes import parts
 from nivel import MachineRecord
 from nivel.errors import ModelError
 from nivel.judge.before.unusual import remarks
-from nivel.system.beams.nodes import with_nodes
+from nivel.system.beam_nodes import with_nodes
 from nivel.system.build import build
 from nivel.system.system import Equations
 

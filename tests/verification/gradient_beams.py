@@ -6,7 +6,7 @@ import numpy as np
 
 from beams import prepared
 from nivel.flexible.body.body import ReducedBody
-from nivel.system.beams.nodes import with_nodes
+from nivel.system.beam_nodes import with_nodes
 from nivel.system.flexible import bending_bodies
 
 MODELS = ("ancf-cable", "ancf-beam")

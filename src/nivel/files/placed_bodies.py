@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from nivel.elements.beams.beam import Beam
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
 from nivel.files.placement import AXIAL, AXIAL_Z, POLAR_Z, Placement, Scene, triple
 from nivel.files.substitution import NotRepresentableError
-from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import Inertia
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Shape, Standing, Tube

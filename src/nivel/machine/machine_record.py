@@ -18,6 +18,7 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails
 
+from nivel.elements.beams.beam import Beam
 from nivel.elements.circuits import HydraulicComponent
 from nivel.elements.circuits.fluids import AnyFluid
 from nivel.elements.control import ControlBlock
@@ -27,7 +28,6 @@ from nivel.elements.joints.drivers import Driver
 from nivel.elements.joints.joint import Joint
 from nivel.lazy import nivel
 from nivel.machine.assembly_settings import AssemblySettings
-from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.point_masses import problems_of_points
 from nivel.machine.bodies.shape import Shape, Standing

@@ -6,28 +6,18 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from nivel.elements.beams.ancf_beam import beam_strains, section_stiffness
+from nivel.elements.beams.ancf_cable import BENDING_POINTS, STRETCH_POINTS, cable_strains, carried_over, twists
+from nivel.elements.beams.beam import Beam
+from nivel.elements.beams.exact import gauss
+from nivel.elements.beams.gradients import gradients, lengths_of, line_at, unstressed_vectors
 from nivel.errors import ModelError
 from nivel.lazy import dataclass, nivel, scipy, xarray
-from nivel.machine.beams.beam import Beam
 from nivel.machine.core.record import unknown_word
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.stored import understood
-from nivel.system.beams.elements import gauss
-from nivel.system.beams.gradient_beams import section_stiffness
-from nivel.system.beams.gradient_elements import (
-    BENDING_POINTS,
-    STRETCH_POINTS,
-    beam_strains,
-    cable_strains,
-    carried_over,
-    gradients,
-    lengths_of,
-    line_at,
-    twists,
-    unstressed_vectors,
-)
-from nivel.system.beams.gradient_nodes import gradient_nodes, modes_in_gradients
+from nivel.system.beam_nodes import gradient_nodes, modes_in_gradients
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
@@ -44,7 +34,7 @@ def felt(beam: Beam, place: Array, theta: Array, modal: Array) -> Felt:
     if beam.has_gradients:
         turned = scipy.spatial.transform.Rotation.from_quat(theta[:, :, [1, 2, 3, 0]].reshape(-1, 4)).as_matrix()
         return felt_by_gradients(beam, place, turned.reshape(*theta.shape[:2], 3, 3), modal)
-    elements = nivel.system.beams.elements.elements_of(beam)
+    elements = nivel.elements.beams.exact.elements_of(beam)
     count, points = elements.N.shape[:2]
     times, rows = len(place), max(AT_ONCE // count, 1)
     parts = [np.zeros((0, count * points, 6))]
@@ -56,7 +46,7 @@ def felt(beam: Beam, place: Array, theta: Array, modal: Array) -> Felt:
             .reshape(*turned.shape[:2], 3, 3)
         )
         many = len(x)
-        now = nivel.system.beams.elements.strains(
+        now = nivel.elements.beams.exact.strains(
             x[:, elements.nodes].reshape(many * count, -1, 3),
             axes[:, elements.nodes].reshape(many * count, -1, 3, 3),
             elements.reference,
@@ -92,8 +82,8 @@ def _felt_by_springs(beam: Beam, place: Array, theta: Array) -> Felt:
         .reshape(*theta.shape[:2], 3, 3)
     )
     weight = beam.line.length * np.diff(beam.shares)
-    strain = nivel.system.beams.segments.deflections(beam, place, axes) / weight[:, None]
-    return _felt_elastically(beam, nivel.system.beams.segments.boundaries(beam), weight, strain)
+    strain = nivel.elements.beams.segments.deflections(beam, place, axes) / weight[:, None]
+    return _felt_elastically(beam, nivel.elements.beams.segments.boundaries(beam), weight, strain)
 
 
 def beam_sections(result: Result, name: str) -> xarray.Dataset:

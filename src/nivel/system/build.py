@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from nivel.elements.beams.models import add_beam
 from nivel.elements.forces import FORCES
 from nivel.elements.forces.friction import rub_off
 from nivel.elements.joints.couplings import add_couplings
@@ -52,8 +53,7 @@ from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.expression import Expression, expression_of
 from nivel.machine.units.sides import marks
-from nivel.system.beams.beams import add_beam, no_tangent, shared_mass
-from nivel.system.beams.gradient_beams import point_inertia
+from nivel.system.beam_tables import no_tangent, point_inertia, shared_mass
 from nivel.system.bodies import body_tables, given_poses, given_velocities, machine_size
 from nivel.system.builder import SystemBuilder
 from nivel.system.elimination.partition import no_partition

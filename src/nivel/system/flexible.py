@@ -19,7 +19,7 @@ from nivel.lazy import dataclass, replace
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import MassProperties
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.beams.gradient_nodes import GradientNode
+from nivel.system.beam_nodes import GradientNode
 from nivel.system.tables import Array, index_array
 
 # of what ω_a ω_b does in each component of a symmetric tensor: those off the diagonal count twice

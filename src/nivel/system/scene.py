@@ -43,6 +43,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from nivel.elements.beams.beam import Beam
 from nivel.elements.contacts.contact import Contact
 from nivel.elements.contacts.height_field import ground_surface
 from nivel.elements.forces import Force
@@ -54,7 +55,6 @@ from nivel.elements.joints.joint import Joint
 from nivel.files.joint_parts import rotors_of
 from nivel.flexible.body.body import moving_surface
 from nivel.lazy import nivel
-from nivel.machine.beams.beam import Beam
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.colour import digits_of
 from nivel.machine.bodies.shape import Box, Ellipsoid, Extrusion, Mesh, Shape, Sphere, Tube

@@ -6,10 +6,9 @@ from typing import Final
 
 import numpy as np
 
-from nivel.machine.beams.beam import Beam
-from nivel.machine.beams.beam_section import GeneralSection
-from nivel.machine.beams.section import Box, Circle, IBeam, Rectangle, Tube, Values
-from nivel.machine.beams.six_by_six import full_matrix
+from nivel.elements.beams.beam import Beam
+from nivel.elements.beams.sections import Box, Circle, GeneralSection, IBeam, Rectangle, Tube, Values
+from nivel.machine.units.six_by_six import full_matrix
 
 Outline = list[tuple[float, float]]  # corners (y, z) [m], counter-clockwise
 CORNERS: Final = 24  # of a round section

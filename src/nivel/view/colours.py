@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
+from nivel.elements.beams.beam import Beam
 from nivel.errors import ModelError
 from nivel.flexible.body.body import ReducedBody, moving_surface
 from nivel.flexible.body.recovery import stress, von_mises
-from nivel.machine.beams.beam import Beam
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.beams import felt, modes_of_nodes
 from nivel.results.result import Result

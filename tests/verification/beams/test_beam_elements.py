@@ -9,8 +9,8 @@ from scipy.spatial.transform import Rotation
 
 from beams import disturb, flying, forces, general, hinged, prepared, trust
 from nivel.analysis.assembly import implicit
-from nivel.machine.beams.beam import Beam
-from nivel.system.beams.elements import masses_of
+from nivel.elements.beams.beam import Beam
+from nivel.elements.beams.exact import masses_of
 from simulating import simulate
 
 pytestmark = pytest.mark.covering
@@ -150,7 +150,7 @@ def test_rigid_motions_have_the_energy_of_the_interpolated_body(order):
     assert np.abs(h).max() < 1e-15  # a rigid motion of the unstressed beam leaves no angular momentum to share
     consistent = lumped - 0.5 * np.sum(masses.shared * apart)
     # directly: points of a fine rule with interpolated mass centres and exact turning of the sections
-    from nivel.system.beams.elements import gauss, lagrange, relative_turns, rotation
+    from nivel.elements.beams.exact import gauss, lagrange, relative_turns, rotation
 
     p, total = order, 0.0
     xi, weight = gauss(8)

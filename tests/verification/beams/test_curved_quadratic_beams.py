@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from nivel.machine.beams.beam import Beam
-from nivel.system.beams.nodes import lumps_of
+from nivel.elements.beams.beam import Beam
+from nivel.system.beam_nodes import lumps_of
 from simulating import machine
 
 ROOT = 0.7071067811865476

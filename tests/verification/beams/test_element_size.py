@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 import nivel
+from nivel.elements.beams.other_elements import changed, doubled
 from nivel.judge.after.other_elements import other_elements
-from nivel.machine.beams.other_elements import changed, doubled
 from nivel.results.analyses.linear_model import LinearModel
 from references.planar_beam import PlanarBeam
 from simulating import G, machine

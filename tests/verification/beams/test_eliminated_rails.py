@@ -11,7 +11,7 @@ from nivel.analysis.assembly.implicit import ResidualOptions, with_residual
 from nivel.analysis.plan.choice import choose_coordinates
 from nivel.errors import SolveError
 from nivel.kernels.output.observe import observe
-from nivel.system.beams.nodes import with_nodes
+from nivel.system.beam_nodes import with_nodes
 from nivel.system.states.relative import arrange
 from preparing import prepare
 from simulating import machine, simulate, solid

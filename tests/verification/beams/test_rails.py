@@ -9,7 +9,7 @@ import beams
 from assembled import random_states
 from nivel.analysis.assembly.equations import equations, moved
 from nivel.errors import ModelError, SolveError
-from nivel.system.beams.nodes import with_nodes
+from nivel.system.beam_nodes import with_nodes
 from simulating import machine, simulate, solid
 from unknowns import Unknowns, at_state
 

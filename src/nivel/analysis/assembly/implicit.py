@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.unknown_groups import frictions_with_stiction, integrals, unknown_groups
+from nivel.elements.beams.exact import hold, nodes_of_elements
+from nivel.elements.beams.exact_slopes import tangent
 from nivel.kernels.core.arrays import dual_twin
 from nivel.kernels.core.block import Handle
-from nivel.kernels.forces.beam import hold
 from nivel.kernels.record.hook import FAMILIES, Family
 from nivel.kernels.record.implicit_record import Newton, Residual
 from nivel.kernels.record.record import (
@@ -34,14 +35,12 @@ from nivel.kernels.record.record import (
 )
 from nivel.kernels.residual import friction_residual
 from nivel.kernels.residual import tangent_entries as entries
-from nivel.kernels.residual.beam_tangent import tangent
 from nivel.kernels.residual.element_crossing import pass_nodes
 from nivel.kernels.tree.modal_nodes import pass_modes
 from nivel.kernels.tree.tree_nodes import pass_sliders
 from nivel.lazy import dataclass, replace, scipy
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
-from nivel.system.beams.beams import nodes_of_elements
-from nivel.system.beams.tangent import (
+from nivel.system.beam_tables import (
     elastic_family,
     has_carried_nodes,
     has_elastic_beams,

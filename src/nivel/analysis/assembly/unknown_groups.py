@@ -13,7 +13,7 @@ from nivel.elements.joints.on_beams import stretches
 from nivel.kernels.bodies.coordinate import ALONG, LEAN_X, LEAN_Y, TWIST
 from nivel.kernels.elements import friction as columns
 from nivel.kernels.record.record import MODAL, NONE, POINT_ON_BEAM, Record
-from nivel.system.beams.tangent import rail_of
+from nivel.system.beam_tables import rail_of
 from nivel.system.builder import NOTHING
 from nivel.system.system import System
 

@@ -21,7 +21,7 @@ from nivel.analysis.interactive.handles import Handle, Wish, further_handles, me
 from nivel.analysis.plan.beam_facts import with_stiff_beams
 from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.beams.nodes import with_nodes
+from nivel.system.beam_nodes import with_nodes
 from nivel.system.scene import scene
 from nivel.system.system import Array
 from nivel.words.arguments import checked_arguments

@@ -24,7 +24,7 @@ from nivel.judge.after.subject import Curve
 from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.analyses.configuration_curve import ConfigurationCurve, Turning
-from nivel.system.beams.nodes import with_nodes
+from nivel.system.beam_nodes import with_nodes
 from nivel.system.system import Array
 
 # longest and shortest step, and the most of them

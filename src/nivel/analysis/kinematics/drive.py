@@ -22,7 +22,7 @@ from nivel.machine.settings.kinematics import KinematicsSettings
 from nivel.results.analyses.configuration_curve import ConfigurationCurve
 from nivel.results.analyses.mechanism import Range
 from nivel.results.result import Result
-from nivel.system.beams.nodes import with_nodes
+from nivel.system.beam_nodes import with_nodes
 
 
 def driven(machine: MachineRecord, settings: KinematicsSettings) -> tuple[MachineRecord, KinematicsSettings]:

@@ -7,15 +7,15 @@ from typing import Any
 
 import numpy as np
 
+from nivel.elements.beams.beam import Beam
+from nivel.elements.beams.exact import elements_of, gauss, lagrange, skew
+from nivel.elements.beams.models import fastest_of_gradients
+from nivel.elements.beams.sections import BeamSection
 from nivel.elements.joints.joint import Joint
 from nivel.lazy import dataclass, scipy
-from nivel.machine.beams.beam import Beam
-from nivel.machine.beams.beam_section import BeamSection
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.beams.elements import elements_of, gauss, lagrange, skew
-from nivel.system.beams.gradient_beams import fastest_of_gradients
-from nivel.system.beams.nodes import with_nodes
+from nivel.system.beam_nodes import with_nodes
 
 FIRST_BENDING = 4.730040744862704  # first root above zero of cos x cosh x = 1: a beam with free ends
 

@@ -10,6 +10,9 @@ from time import perf_counter
 from nivel.analysis.curves.path import has_switches
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.progress.log import Listener
+from nivel.elements.beams.exact import hold
+from nivel.elements.beams.models import ELASTIC, family_of
+from nivel.elements.beams.models import FAMILIES as BEAMS
 from nivel.elements.circuits.phase import SLOPES
 from nivel.elements.contacts.contact import Contact
 from nivel.elements.control.units import UnitBlock
@@ -18,7 +21,6 @@ from nivel.elements.forces.drive_lines import is_sticking
 from nivel.elements.joints import JOINTS
 from nivel.errors import ModelError, NivelError
 from nivel.integrate.catalogue import all_facts
-from nivel.kernels.forces.beam import hold
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.program import run as run_expression
 from nivel.kernels.signals.c_function import output as c_output
@@ -31,8 +33,6 @@ from nivel.motion.catalogue import FLEXIBLE, FLOATING, IMPLICIT_ACCELERATIONS, P
 from nivel.native import library
 from nivel.native.entry import Entry, entry_of
 from nivel.native.workers import NO_COMPILER, UNKNOWN_LEVEL, CompilationError
-from nivel.system.beams.beams import ELASTIC, family_of
-from nivel.system.beams.beams import FAMILIES as BEAMS
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
@@ -48,7 +48,7 @@ SENSOR, WATCH = "nivel.kernels.signals.sensor", "nivel.kernels.signals.watch"
 SAMPLING = "nivel.kernels.signals.functions:sample"
 HEIGHT_WAY = "nivel.elements.contacts.height_way"
 GIVEN_FRICTION, RAIL = "nivel.kernels.residual.friction_residual", "nivel.kernels.bodies.rail"
-OF_BEAMS = "nivel.kernels.residual.beam_tangent"
+OF_BEAMS = "nivel.elements.beams.exact_slopes"
 POINTS = "nivel.kernels.residual.point_inertia"
 # nodes of trees that are no joints, for residuals in relative coordinates
 OF_MODES, OF_SLIDERS = "nivel.kernels.tree.modal_nodes", "nivel.kernels.tree.tree_nodes"

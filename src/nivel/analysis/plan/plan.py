@@ -36,7 +36,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import chooses
 from nivel.motion.catalogue import FORMULATIONS, IMPLICIT_ACCELERATIONS, PathFacts, path_of
-from nivel.system.beams.nodes import with_nodes
+from nivel.system.beam_nodes import with_nodes
 
 # settings that hold constants of one integrator each
 CONSTANTS = {"newmark": "newmark", "hht": "hht", "generalised_alpha": "generalised-alpha"}

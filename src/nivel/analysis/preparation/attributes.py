@@ -14,7 +14,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.contents import ATTRIBUTE as RESULT_FORMAT
 from nivel.results.frames.contents import FORMAT
 from nivel.results.stress import ATTRIBUTE, BodySource, as_attribute
-from nivel.system.beams.nodes import with_nodes
+from nivel.system.beam_nodes import with_nodes
 from nivel.system.flexible import bending_bodies
 from nivel.system.scene import scene
 

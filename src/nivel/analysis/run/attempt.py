@@ -25,7 +25,7 @@ from nivel.results.estimate import estimate_errors
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
-from nivel.system.beams.nodes import with_nodes
+from nivel.system.beam_nodes import with_nodes
 from nivel.system.system import Array
 
 

@@ -20,10 +20,10 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_marker_force, add_torque
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
-from nivel.machine.beams.six_by_six import Array, Diagonal, Matrix, full_matrix, six_by_six, symmetry_and_sign
 from nivel.machine.core.between import Between
 from nivel.machine.core.checked import Problem
 from nivel.machine.given import Field
+from nivel.machine.units.six_by_six import Array, Diagonal, Matrix, full_matrix, six_by_six, symmetry_and_sign
 
 if TYPE_CHECKING:
     from nivel.system.builder import SystemBuilder

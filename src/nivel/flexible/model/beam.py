@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.elements.beams.sections import Material, Section
 from nivel.lazy import dataclass
-from nivel.machine.beams.section import Material
-from nivel.machine.beams.section_properties import Section
 from nivel.machine.core.vectors import Array
 
 GAUSS, GAUSS_WEIGHT = (np.polynomial.legendre.leggauss(4)[0] + 1.0) / 2.0, np.polynomial.legendre.leggauss(4)[1] / 2.0

@@ -9,12 +9,12 @@ from itertools import pairwise
 import numpy as np
 import scipy.sparse as sp
 
+from nivel.elements.beams.sections import section_of
 from nivel.errors import refuse
 from nivel.flexible.model.beam import Beam, end_stress, geometric_stiffness, mass_points, stiffness
 from nivel.flexible.model.model import Array, FiniteElementModel, PointMass, Sparse, Whole, numbered
 from nivel.flexible.model.model_file import Located
 from nivel.lazy import dataclass, field
-from nivel.machine.beams.section_properties import section_of
 
 
 @dataclass

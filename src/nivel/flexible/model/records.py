@@ -7,8 +7,8 @@ from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator
 
+from nivel.elements.beams.sections import Material, SectionRecord
 from nivel.flexible.model.solid_records import Part, Solid
-from nivel.machine.beams.section import Material, SectionRecord
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import Truth
 from nivel.machine.core.record import Name, unknown_word

@@ -9,10 +9,10 @@ from typing import Final
 import numpy as np
 import scipy.sparse as sp
 
+from nivel.elements.beams.sections import Material
 from nivel.flexible.model.model import Array, Sparse, Whole
 from nivel.flexible.model.solid_shapes import SolidShape
 from nivel.lazy import dataclass, replace
-from nivel.machine.beams.section import Material
 
 CHUNK: Final = 8  # fields at once
 ELEMENTS: Final = 1000  # at once, for many fields

@@ -11,6 +11,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.spatial import KDTree
 
+from nivel.elements.beams.sections import Material
 from nivel.errors import ModelError
 from nivel.extras import needed, require
 from nivel.files.apart import apart
@@ -21,7 +22,6 @@ from nivel.flexible.model.solid_elements import SolidBlock, SolidElements, elast
 from nivel.flexible.model.solid_records import BoxPart, ConePart, CylinderPart, Part, Solid, SpherePart
 from nivel.flexible.model.solid_shapes import TETRAHEDRON_10
 from nivel.lazy import dataclass, meshio, skfem
-from nivel.machine.beams.section import Material
 
 GMSH_TYPE: Final = 11  # gmsh's number of quadratic tetrahedra
 TO_VTK: Final = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]  # gmsh has the edges 23 and 13 the other way round

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from nivel.elements.beams.beam import Beam
+from nivel.elements.beams.other_elements import changed, doubled
 from nivel.elements.joints import JOINTS
 from nivel.lazy import dataclass, scipy
-from nivel.machine.beams.beam import Beam
-from nivel.machine.beams.other_elements import changed, doubled
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.estimate import Estimate

@@ -21,7 +21,7 @@ from nivel.machine.core.element import ForceElement
 from nivel.machine.laws.symbols import find_in, follows_control, is_output
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.statics import StaticsSettings
-from nivel.system.beams.nodes import with_nodes
+from nivel.system.beam_nodes import with_nodes
 
 MOST = 1500  # velocities of full matrices
 ALL = bool  # of elements that are there

@@ -25,7 +25,7 @@ class PointInertia(NamedTuple):
 
 
 class BeamTangent(NamedTuple):
-    """Derivatives of elements by hand, for E elements without damping; see `nivel.kernels.residual.beam_tangent`.
+    """Derivatives of elements by hand, for E elements without damping; see `nivel.elements.beams.exact_slopes`.
 
     A node is plain where nothing but elements of beams takes hold of it: all derivatives with respect to its motion are found here.
     """

@@ -171,7 +171,7 @@ class Newton(NamedTuple):
     )
     filter: RealFactors  # of errors of chosen steps, see `nivel.integrate.newmark.alpha_error`; without numbers where none are
     balanced: F1  # (2,) 1 where it has factors; length of the machine [m], which turns are measured by
-    asked: F1  # (3,) cq and cv of derivatives by hand, 1 where they are of `balance`; see `nivel.kernels.residual.beam_tangent`
+    asked: F1  # (3,) cq and cv of derivatives by hand, 1 where they are of `balance`; see `nivel.elements.beams.exact_slopes`
     # (1,) 3: positions are closed by the multipliers; 2: velocities are, and positions by a correction; 1: accelerations are; 0: of
     # independent coordinates all that depends on them is found from the constraints
     level: U1

@@ -23,7 +23,7 @@ from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, rotated
 from nivel.results.trust import Item, Threshold, number
-from nivel.system.beams.nodes import with_nodes
+from nivel.system.beam_nodes import with_nodes
 from nivel.system.joint_frames import joint_frames
 
 if TYPE_CHECKING:

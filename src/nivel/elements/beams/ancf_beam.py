@@ -12,6 +12,11 @@ energy at the nodes, between which linear gradients shorten without reason where
 
 from __future__ import annotations
 
+import numpy as np
+
+from nivel.elements.beams.beam import Beam
+from nivel.elements.beams.exact import gauss, section_forces
+from nivel.elements.beams.gradients import STEP, Array, hermite, lengths_of, moved_vectors, unstressed_vectors
 from nivel.kernels.algebra.gradients import (
     DAMPING,
     FORCE,
@@ -27,6 +32,7 @@ from nivel.kernels.algebra.spatial import dot
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
+from nivel.lazy import dataclass
 from nivel.native.function import stage
 
 WIDTH = 4  # vectors of a node
@@ -87,31 +93,8 @@ def point_of_section(n, q, control):
     r3 = 0.5 * (dot(ys, Z) + dot(Ys, z) - dot(zs, Y) - dot(Zs, y))
     e4, r4 = dot(d, Zs) - unstrained[4], dot(v, Zs) + dot(d, zs)
     e5, r5 = -dot(d, Ys) - unstrained[5], -dot(v, Ys) - dot(d, ys)
-    lag, stored, lost = n[DAMPING], 0.0 * e0, 0.0 * e0
-    s0, s1, s2, s3, s4, s5 = 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0
-    for i in range(6):
-        C = n[STIFFNESS + 6 * i : STIFFNESS + 6 * i + 6]
-        elastic = C[0] * e0 + C[1] * e1 + C[2] * e2 + C[3] * e3 + C[4] * e4 + C[5] * e5
-        viscous = lag * (C[0] * r0 + C[1] * r1 + C[2] * r2 + C[3] * r3 + C[4] * r4 + C[5] * r5)
-        e = e0 if i == 0 else e1 if i == 1 else e2 if i == 2 else e3 if i == 3 else e4 if i == 4 else e5
-        r = r0 if i == 0 else r1 if i == 1 else r2 if i == 2 else r3 if i == 3 else r4 if i == 4 else r5
-        stored += 0.5 * elastic * e
-        lost += viscous * r
-        total = q[0] * (elastic + viscous)
-        if i == 0:
-            s0 = total
-        elif i == 1:
-            s1 = total
-        elif i == 2:
-            s2 = total
-        elif i == 3:
-            s3 = total
-        elif i == 4:
-            s4 = total
-        else:
-            s5 = total
-    control.stored[0] += q[0] * stored
-    control.power[1] += q[0] * lost
+    strain, rate = (e0, e1, e2, e3, e4, e5), (r0, r1, r2, r3, r4, r5)
+    s0, s1, s2, s3, s4, s5 = section_forces(n, STIFFNESS, strain, rate, q[0], n[DAMPING], control)
     on_d, across = weighed(s1, Y, s2, Z), weighed(s4, Zs, -s5, Ys)
     add_along_line(
         n,
@@ -158,3 +141,86 @@ def apply(machine, number, t):
         section_of_node(n, 1, control)
         push_vectors(record.bodies, record.markers, index, n, WIDTH)
     return OK
+
+
+@dataclass(frozen=True)
+class Strains:
+    """Strains of sections at points, and what they are measured with.
+
+    share : (n, g) between 0 and 1 in each element. weight : (n, g) [m]. value : (…, n, g, 6) (Γ, Κ).
+    """
+
+    share: Array
+    weight: Array
+    value: Array
+
+
+def beam_strains(beam: Beam, v: Array) -> Strains:
+    """Of `ancf-beam`, for the vectors v (…, N, 4, 3) of its nodes; complex ones too."""
+    xi, weight = gauss(POINTS)
+    lengths = lengths_of(beam)
+    slope = np.stack([hermite(xi, length, 1) for length in lengths])
+    a, b = v[..., :-1, :, :], v[..., 1:, :, :]
+    line = np.stack([a[..., 0, :], a[..., 1, :], b[..., 0, :], b[..., 1, :]], axis=-2)
+    d = np.einsum("ngj,...nji->...ngi", slope, line)
+    across, turning = [], []
+    for j in (2, 3):
+        across.append(
+            np.einsum("g,...ni->...ngi", 1.0 - xi, a[..., j, :]) + np.einsum("g,...ni->...ngi", xi, b[..., j, :])
+        )
+        turning.append(((b - a)[..., j, :] / lengths[:, None])[..., None, :] + 0.0 * across[-1])
+    (Y, Z), (Ys, Zs) = across, turning
+
+    def dot(x: Array, y: Array) -> Array:
+        return np.sum(x * y, axis=-1)
+
+    value = [
+        0.5 * dot(d, d) - 0.5,
+        dot(d, Y),
+        dot(d, Z),
+        0.5 * (dot(Ys, Z) - dot(Zs, Y)),
+        dot(d, Zs),
+        -dot(d, Ys),
+    ]
+    share = np.tile(xi, (len(lengths), 1))
+    return Strains(share, weight * lengths[:, None], np.stack(value, axis=-1))
+
+
+def section_stiffness(C: Array, length: float) -> Array:
+    """(3,) [N] what the deformation of a section of stiffness C costs in an element of this length [m], yy, zz and yz.
+
+    As much as stretch and shear of the beam do, and more in elements that are shorter than the section is high. A moment M feels
+    -M d·Y': where the slopes of elements lean by ±g in turn and sections stretch by ±b, they store 2 (GA g²/4 + k b²/4) a unit of length
+    and M gains 2 M g b/length, so that M = ½ length √(GA k) would be a critical load that falls with every refinement. With
+    k = EA + 144 EI/length² it is at least 6 √(GA EI), where fibres are strained by more than one.
+    """
+    stretch, shear = C[0, 0], 0.5 * (C[1, 1] + C[2, 2])
+    turns = 144.0 * np.array([C[5, 5], C[4, 4], np.sqrt(C[4, 4] * C[5, 5]) * shear / stretch]) / length**2
+    return np.asarray(np.array([stretch, stretch, shear]) + turns, dtype=float)
+
+
+def beam_numbers(beam: Beam) -> list[list[float]]:
+    """Numbers from OWN on, an element each."""
+    C = beam.properties.stiffness
+    xi, _ = gauss(POINTS)
+    unstressed = beam_strains(beam, unstressed_vectors(beam))
+    out = []
+    for e, length in enumerate(lengths_of(beam).tolist()):
+        table = np.column_stack([unstressed.weight[e], xi, hermite(xi, length, 1), unstressed.value[e]])
+        section = section_stiffness(C, length)
+        out.append([length, *C.ravel().tolist(), *section.tolist(), *table.ravel().tolist()])
+    return out
+
+
+def beam_stiffness(beam: Beam, length: float) -> Array:
+    """Stiffness of an element of this length [m], straight and unstressed, for the vectors of its nodes."""
+    moved = moved_vectors(beam)
+    strains = beam_strains(beam, moved)
+    B = strains.value[:, 0].imag / STEP
+    K = np.einsum("iga,ab,jgb,g->ij", B, beam.properties.stiffness, B, strains.weight[0])
+    Y, Z = moved[:, :, 2], moved[:, :, 3]
+    squares = 0.5 * np.sum(Y * Y, axis=-1), 0.5 * np.sum(Z * Z, axis=-1), np.sum(Y * Z, axis=-1)
+    for share, value in zip(section_stiffness(beam.properties.stiffness, length), squares, strict=True):
+        b = value.imag / STEP
+        K += 0.5 * length * share * b @ b.T
+    return np.asarray(K, dtype=float)

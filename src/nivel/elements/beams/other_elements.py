@@ -6,12 +6,11 @@ from collections.abc import Collection
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from nivel.machine.beams.beam import Beam
+from nivel.elements.beams.beam import Beam
+from nivel.machine.core.vectors import Array
 from nivel.machine.given import Field, ManyNames, ManyNumbers
 
-Array = NDArray[np.float64]
 LEAST_TO_HALVE = 4  # elements between what holds a beam: with fewer, half as many may lock where these do
 SAME = 1e-12  # of the length: shares of one node
 

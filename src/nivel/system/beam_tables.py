@@ -1,25 +1,36 @@
-"""Tables for derivatives of beams by hand: which unknowns move an element, and where what they do stands in the matrix."""
+"""Tables of beams: the mass that their nodes and points have in common; and for derivatives by hand which unknowns move an element, and
+where what they do stands in the matrix."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.forces.beam import apply_elastic as elastic_beam
-from nivel.kernels.record.beam_record import BeamTangent
+from nivel.elements.beams.beam import Beam
+from nivel.elements.beams.exact import MOST, ElementRow, masses_of
+from nivel.elements.beams.exact import apply_elastic as elastic_beam
+from nivel.elements.beams.gradients import (
+    as_points,
+    consistent_mass,
+    lengths_of,
+    lumped_mass,
+    points_of,
+    reach_of,
+    vectors_of_node,
+)
+from nivel.kernels.record.beam_record import BeamTangent, PointInertia, SharedMass
 from nivel.kernels.record.hook import FAMILIES
 from nivel.kernels.record.record import FREE, NONE, Record
 from nivel.kernels.tree.joints import BY_ADDRESS
-from nivel.system.beams.beams import empty_tangent
+from nivel.system.builder import SystemBuilder
 from nivel.system.elimination.tangent_plan import TangentPlan
 from nivel.system.system import System
 from nivel.system.tables import index_array
 
-# columns of an element in `Elements.columns`, see `nivel.kernels.elements.beam_element`
-COUNT = 4
+MOST_VECTORS = 8  # of an element with gradients
 Index = NDArray[np.integer]
 
 
@@ -75,7 +86,7 @@ def plain_nodes(system: System, part: Index) -> dict[int, int]:
 def _nodes(record: Record) -> list[list[int]]:
     """Markers of the nodes of each element without damping."""
     first, last = record.elements.span[elastic_family(record)]
-    return [row[: row[COUNT]] for row in record.elements.columns[first:last].tolist()]
+    return [row[: row[ElementRow.COUNT]] for row in record.elements.columns[first:last].tolist()]
 
 
 def tangent_tables(record: Record, plan: TangentPlan, plain: Mapping[int, int]) -> BeamTangent:
@@ -135,3 +146,67 @@ def _plain_table(branch: Mapping[int, tuple[int, int, int]], plan: TangentPlan, 
     places = plan.factor.entry(at + np.arange(6), at) if firsts else np.zeros((0, 6))
     table = np.column_stack([np.array(list(plain), dtype=np.int64).reshape(-1, 1), at, places])
     return np.ascontiguousarray(table.astype(np.uint32).reshape(-1, 8))
+
+
+def no_tangent() -> BeamTangent:
+    """For machines whose derivatives are found otherwise: all arrays empty."""
+    return empty_tangent(0, 0)
+
+
+def empty_tangent(elements: int, unknowns: int) -> BeamTangent:
+    """Room for so many elements, and unknowns of one at most; tables are empty."""
+    empty = index_array([], 1)
+    return BeamTangent(
+        wrench=np.zeros((elements, 6 * MOST)),
+        first=np.zeros(1, dtype=np.uint32),
+        start=np.zeros(1, dtype=np.uint32),
+        unknown=index_array([], 4),
+        place_start=empty,
+        place=empty,
+        pair=index_array([], 2),
+        plain=index_array([], 8),
+        S=np.zeros((9, 9)),
+        B=np.zeros((6, 9)),
+        k=np.zeros((18, 18)),
+        P=np.zeros(18),
+        twist=np.zeros((unknowns, 6 * MOST)),
+        change=np.zeros((MOST, 6)),
+        local=np.zeros(36),
+        psi=np.zeros((MOST, 3)),
+    )
+
+
+def shared_mass(builder: SystemBuilder, beams: Sequence[Beam]) -> SharedMass:
+    """What the nodes of beams with consistent mass have in common."""
+    pairs, mass, moment, turn = [], [np.zeros(0)], [np.zeros((0, 3, 3))], [np.zeros((0, 3, 3))]
+    for beam in beams:
+        if beam.model == "geometrically-exact" and beam.shares_mass:
+            own = masses_of(beam)
+            ends = np.array([(builder.body(name), builder.frame(name)) for name in beam.node_names])
+            pairs += ends[own.pairs].transpose(0, 2, 1).reshape(-1, 4).tolist()
+            mass.append(own.shared)
+            moment.append(own.moment)
+            turn.append(own.turn)
+    return SharedMass(index_array(pairs, 4), np.concatenate(mass), np.concatenate(moment), np.concatenate(turn))
+
+
+def point_inertia(builder: SystemBuilder, beams: Sequence[Beam]) -> PointInertia:
+    """The mass that the points of beams in absolute nodal coordinates have in common."""
+    markers, matrices = [], [np.zeros((0, MOST_VECTORS, MOST_VECTORS))]
+    for beam in beams:
+        if not beam.has_gradients:
+            continue
+        width = vectors_of_node(beam)
+        T = np.kron(np.eye(2), as_points(width, reach_of(beam)))
+        points = points_of(builder, beam)
+        for e, length in enumerate(lengths_of(beam).tolist()):
+            first, second = lumped_mass(beam, length)
+            rest = consistent_mass(beam, length)
+            rest[:width, :width] -= first
+            rest[width:, width:] -= second
+            matrix = np.zeros((1, MOST_VECTORS, MOST_VECTORS))
+            matrix[0, : 2 * width, : 2 * width] = T.T @ rest @ T
+            matrices.append(matrix)
+            own = [*points[e], *points[e + 1]]
+            markers.append(own + [NONE] * (MOST_VECTORS - len(own)))
+    return PointInertia(index_array(markers, MOST_VECTORS), np.concatenate(matrices))

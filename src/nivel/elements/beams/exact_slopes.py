@@ -7,7 +7,7 @@ stiffness k. At a point, with the potential M·T(ψ) ψ' of given moments and N�
 
 Nodes feel f_a = R_r P_a and t_a = R_a T_a⁻ᵀ P_ψa; the reference node what balances them. Their changes for a motion (δx, δθ) of the nodes
 follow from k and from how these forces turn, and rows are their work on the motions of the unknowns. While the other derivatives are
-found on dual numbers the elements keep their wrenches (`nivel.kernels.forces.beam`), which gives what turns of rows do to them; for
+found on dual numbers the elements keep their wrenches (`nivel.elements.beams.exact.hold`), which gives what turns of rows do to them; for
 plain nodes that is done here too, with their inertia.
 """
 
@@ -15,28 +15,23 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.algebra.inverse_tangent import inverse_tangent_by, inverse_tangent_factor, slope_of_factor
-from nivel.kernels.algebra.relative_rotation import rotation_vector
-from nivel.kernels.algebra.spatial import cross, dot
-from nivel.kernels.bodies.shared_mass import less, product, transposed_product
-from nivel.kernels.core.status import OK
-from nivel.kernels.elements.beam_element import (
-    COUNT,
-    NODE,
-    POINT,
-    POINTS,
-    REFERENCE,
+from nivel.elements.beams.exact import (
     SHAPE,
     SLOPE,
-    STIFFNESS,
     STRAIN,
     WEIGHT,
     WIDTH,
+    ElementRow,
     along_line,
     sum_of,
     tangent_product,
     turned,
 )
+from nivel.kernels.algebra.inverse_tangent import inverse_tangent_by, inverse_tangent_factor, slope_of_factor
+from nivel.kernels.algebra.relative_rotation import rotation_vector
+from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.bodies.shared_mass import less, product, transposed_product
+from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.kernels.residual.tangent import inverse_tangent
@@ -98,13 +93,13 @@ def stiffness_of_point(own, n, q, stretched, psi, bend):
     e3, e4, e5 = kappa[0] - unstrained[3], kappa[1] - unstrained[4], kappa[2] - unstrained[5]
     f = own.local
     for i in range(6):
-        C = n[STIFFNESS + 6 * i : STIFFNESS + 6 * i + 6]
+        C = n[ElementRow.STIFFNESS + 6 * i : ElementRow.STIFFNESS + 6 * i + 6]
         f[i] = weight * (C[0] * e0 + C[1] * e1 + C[2] * e2 + C[3] * e3 + C[4] * e4 + C[5] * e5)
     N, M = (f[0], f[1], f[2]), (f[3], f[4], f[5])
     # material part: Bᵀ (w C) B, column by column
     for j in range(9):
         for i in range(6):
-            C = n[STIFFNESS + 6 * i : STIFFNESS + 6 * i + 6]
+            C = n[ElementRow.STIFFNESS + 6 * i : ElementRow.STIFFNESS + 6 * i + 6]
             total = 0.0
             for m in range(6):
                 total += C[m] * B[m, j]
@@ -161,8 +156,8 @@ def slot(a, r):
 @stage
 def stiffness_of_element(own, markers, index, n):
     """k and P of an element, and its rotation vectors."""
-    count, r = np.int64(index[COUNT]), np.int64(index[REFERENCE])
-    Ar, k, P = markers.A[index[NODE + r]], own.k, own.P
+    count, r = np.int64(index[ElementRow.COUNT]), np.int64(index[ElementRow.REFERENCE])
+    Ar, k, P = markers.A[index[ElementRow.NODE + r]], own.k, own.P
     size = 6 * (count - 1)
     for i in range(size):
         P[i] = 0.0
@@ -171,11 +166,11 @@ def stiffness_of_element(own, markers, index, n):
     for a in range(count):
         own.psi[a, 0], own.psi[a, 1], own.psi[a, 2] = 0.0, 0.0, 0.0
         if a != r:
-            rotation_vector(Ar, markers.A[index[NODE + a]], own.psi[a])
+            rotation_vector(Ar, markers.A[index[ElementRow.NODE + a]], own.psi[a])
         square = dot(own.psi[a], own.psi[a])
         own.local[ETA + a], own.local[ETA_SLOPE + a] = inverse_tangent_factor(square), slope_of_factor(square)
-    for g in range(index[POINTS]):
-        q = n[POINT + WIDTH * g : POINT + WIDTH * (g + 1)]
+    for g in range(index[ElementRow.POINTS]):
+        q = n[ElementRow.POINT + WIDTH * g : ElementRow.POINT + WIDTH * (g + 1)]
         shape, slope = q[SHAPE : SHAPE + 4], q[SLOPE : SLOPE + 4]
         p0, p1, p2, d0, d1, d2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         for a in range(count):
@@ -229,9 +224,9 @@ def motion_of_nodes(record, unknown, markers, index, out):
             v = unit(axis)
         else:
             w = (A[0, axis - 3], A[1, axis - 3], A[2, axis - 3])
-    for a in range(np.int64(index[COUNT])):
+    for a in range(np.int64(index[ElementRow.COUNT])):
         moved = (unknown[2] >> a) & 1
-        arm = less(markers.r[index[NODE + a]], bodies.R[b])
+        arm = less(markers.r[index[ElementRow.NODE + a]], bodies.R[b])
         lever = cross(w, arm)
         for i in range(3):
             out[6 * a + i] = v[i] + lever[i] if moved == 1 else 0.0
@@ -255,13 +250,13 @@ def see_from_ground(own, markers, index):
 
     δψ_a = J_a (δθ_a - δθ_r), J_a = T_a⁻¹ R_aᵀ, and a torque is J_aᵀ P_ψa: to J_aᵀ k J_b comes how T_a⁻ᵀ changes.
     """
-    count, r = np.int64(index[COUNT]), np.int64(index[REFERENCE])
-    Ar, k, P, local = markers.A[index[NODE + r]], own.k, own.P, own.local
+    count, r = np.int64(index[ElementRow.COUNT]), np.int64(index[ElementRow.REFERENCE])
+    Ar, k, P, local = markers.A[index[ElementRow.NODE + r]], own.k, own.P, own.local
     size = 6 * (count - 1)
     for a in range(count):
         if a == r:
             continue
-        s, A, psi, eta = slot(a, r), markers.A[index[NODE + a]], own.psi[a], local[ETA + a]
+        s, A, psi, eta = slot(a, r), markers.A[index[ElementRow.NODE + a]], own.psi[a], local[ETA + a]
         J, u = own.B[s], 6 * slot(a, r)
         for j in range(3):
             J[j], J[3 + j], J[6 + j] = inverse_tangent_by(eta, 0.5, psi, A[j])
@@ -282,14 +277,17 @@ def see_from_ground(own, markers, index):
 @stage
 def elastic_change(own, markers, index, e, twist, cq):
     """own.change := cq times the changes of force and torque of the element (what it resists with) at its nodes for the motion `twist`."""
-    count, r = np.int64(index[COUNT]), np.int64(index[REFERENCE])
+    count, r = np.int64(index[ElementRow.COUNT]), np.int64(index[ElementRow.REFERENCE])
     k, local, wrench, change = own.k, own.local, own.wrench[e], own.change
     xr, tr = twist[6 * r : 6 * r + 3], twist[6 * r + 3 : 6 * r + 6]
     size = 6 * (count - 1)
     for a in range(count):
         if a == r:
             continue
-        at, swing = 6 * slot(a, r), cross(tr, less(markers.r[index[NODE + a]], markers.r[index[NODE + r]]))
+        at, swing = (
+            6 * slot(a, r),
+            cross(tr, less(markers.r[index[ElementRow.NODE + a]], markers.r[index[ElementRow.NODE + r]])),
+        )
         for i in range(3):
             local[at + i] = twist[6 * a + i] - xr[i] - swing[i]
             local[at + 3 + i] = twist[6 * a + 3 + i] - tr[i]
@@ -308,7 +306,7 @@ def elastic_change(own, markers, index, e, twist, cq):
         f = -wrench[6 * a], -wrench[6 * a + 1], -wrench[6 * a + 2]
         t = -wrench[6 * a + 3], -wrench[6 * a + 4], -wrench[6 * a + 5]
         turning, spun = cross(tr, f), cross(twist[6 * a + 3 : 6 * a + 6], t)
-        arm = less(markers.r[index[NODE + a]], markers.r[index[NODE + r]])
+        arm = less(markers.r[index[ElementRow.NODE + a]], markers.r[index[ElementRow.NODE + r]])
         df = local[18] + turning[0], local[19] + turning[1], local[20] + turning[2]
         moved = cross(less(twist[6 * a : 6 * a + 3], xr), f)
         lever = cross(arm, df)
@@ -322,7 +320,7 @@ def elastic_change(own, markers, index, e, twist, cq):
 @stage
 def add_work(own, index, first, size, plain, e, twist, cq, out, at):
     """Add the work of own.change on the motions of the unknowns of element e to their rows of one column of `out`."""
-    for a in range(np.int64(index[COUNT])):
+    for a in range(np.int64(index[ElementRow.COUNT])):
         c = own.change[a]
         f0, f1, f2, t0, t1, t2 = c[0], c[1], c[2], c[3], c[4], c[5]
         for i in range(size):
@@ -347,9 +345,9 @@ def add_inertial_change(record, index, pair, e, twist, turning, w, cv, cm):
     """
     shared, bodies, markers, change = record.shared, record.bodies, record.markers, record.beams.change
     a, b = np.int64(0), np.int64(0)
-    for s in range(np.int64(index[COUNT])):
-        a = s if index[NODE + s] == shared.pair[pair, 2] else a
-        b = s if index[NODE + s] == shared.pair[pair, 3] else b
+    for s in range(np.int64(index[ElementRow.COUNT])):
+        a = s if index[ElementRow.NODE + s] == shared.pair[pair, 2] else a
+        b = s if index[ElementRow.NODE + s] == shared.pair[pair, 3] else b
     if turning == NONE:
         m = shared.mass[pair]
         for i in range(3):

@@ -7,21 +7,21 @@ from functools import cached_property
 from typing import Annotated, Any, ClassVar, Final, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import BeforeValidator, model_validator
 
-from nivel.machine.beams.beam_curve import Line, NoCurveError, arc, axes_along, smooth, straight
-from nivel.machine.beams.beam_section import (
+from nivel.elements.beams.line import Line, NoCurveError, arc, axes_along, smooth, straight
+from nivel.elements.beams.sections import (
     BeamSection,
     BeamSectionRecord,
     GeneralSection,
+    Material,
     beam_section,
     missing_shear_areas,
 )
-from nivel.machine.beams.section import Material
 from nivel.machine.core.axes import no_direction
 from nivel.machine.core.checked import Checked, Place, Problem, superfluous
 from nivel.machine.core.record import GROUND, Name
+from nivel.machine.core.vectors import Array
 from nivel.machine.given import Field, Given, ManyPlaces, Maybe, OneNumber, OneRecord, TwoNumbers
 from nivel.machine.units.quantity import (
     Angle,
@@ -36,7 +36,6 @@ from nivel.machine.units.quantity import (
     listed,
 )
 
-Array = NDArray[np.float64]
 START, END = "start", "end"
 LEAST: Final = 1e-4  # share of the length by which stations and ends are apart, at least
 # of an element, unstressed: rotations within it are interpolated as vectors [rad]

@@ -11,6 +11,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.elements.beams.beam import Beam
+from nivel.elements.beams.exact import gauss
+from nivel.elements.beams.gradients import STEP, Array, hermite, lengths_of, line_at, moved_vectors
 from nivel.kernels.algebra.analytic import arctan2
 from nivel.kernels.algebra.gradients import (
     DAMPING,
@@ -35,6 +38,7 @@ AXES = 4
 # point of bending these and weights of r''
 STRETCH, BENDING, TWIST, STRETCHED, BENT = OWN, OWN + 1, OWN + 2, OWN + 3, OWN + 18
 NUMBERS = OWN + 36
+STRETCH_POINTS, BENDING_POINTS = 3, 2
 
 
 @stage
@@ -113,10 +117,54 @@ def apply(machine, number, t):
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index, n = elements.columns[k], elements.number[k]
         read_vectors(markers, index, n, WIDTH)
-        for g in range(3):
+        for g in range(STRETCH_POINTS):
             stretch_point(n, n[STRETCHED + 5 * g : STRETCHED + 5 * g + 5], control)
-        for g in range(2):
+        for g in range(BENDING_POINTS):
             bending_point(n, n[BENT + 9 * g : BENT + 9 * g + 9], control)
         twist_nodes(bodies, markers, index, n, control)
         push_vectors(bodies, markers, index, n, WIDTH)
     return OK
+
+
+def cable_numbers(beam: Beam) -> list[list[float]]:
+    """Numbers from OWN on, an element each."""
+    C = beam.properties.stiffness
+    (xi, weight), (at, share) = gauss(STRETCH_POINTS), gauss(BENDING_POINTS)
+    out = []
+    for length in lengths_of(beam).tolist():
+        slope, own, bend = hermite(xi, length, 1), hermite(at, length, 1), hermite(at, length, 2)
+        stretch = np.column_stack([weight * length, slope])
+        bending = np.column_stack([share * length, own, bend])
+        out.append([C[0, 0], C[4, 4], C[3, 3] / length, *stretch.ravel().tolist(), *bending.ravel().tolist()])
+    return out
+
+
+def cable_strains(beam: Beam, v: Array, xi: Array) -> tuple[Array, Array]:
+    """Stretch (…, n, g) and curvature vector (…, n, g, 3) [1/m], global axes, of a cable at xi (g,); for complex vectors too."""
+    line = line_at(beam, v, xi)
+    square = np.sum(line.slope**2, axis=-1)
+    return np.sqrt(square) - 1.0, np.cross(line.slope, line.bend) / square[..., None]
+
+
+def twists(axes: Array) -> Array:
+    """(…, N - 1) [rad] between nodes with axes (…, N, 3, 3), beyond the least turn from one x axis to the next."""
+    A, B = axes[..., :-1, :, :], axes[..., 1:, :, :]
+    carried = carried_over(A[..., 1], A[..., 0], B[..., 0])
+    return np.arctan2(-np.sum(carried * B[..., 2], axis=-1), np.sum(carried * B[..., 1], axis=-1))
+
+
+def carried_over(y: Array, t: Array, s: Array) -> Array:
+    """Vectors y (…, 3) across t, turned by the least turn that takes the unit vector t to s."""
+    share = np.sum(s * y, axis=-1) / (1.0 + np.sum(t * s, axis=-1))
+    return y - share[..., None] * (t + s)
+
+
+def cable_stiffness(beam: Beam, length: float) -> Array:
+    """Stiffness of an element of this length [m], straight and unstressed, for the vectors of its nodes."""
+    C, moved = beam.properties.stiffness, moved_vectors(beam)
+    (xi, weight), (at, share) = gauss(STRETCH_POINTS), gauss(BENDING_POINTS)
+    stretch = cable_strains(beam, moved, xi)[0][:, 0].imag / STEP
+    bend = cable_strains(beam, moved, at)[1][:, 0].imag / STEP
+    K = C[0, 0] * np.einsum("ig,jg,g->ij", stretch, stretch, weight * length)
+    K += C[4, 4] * np.einsum("iga,jga,g->ij", bend, bend, share * length)
+    return np.asarray(K, dtype=float)

@@ -7,12 +7,12 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from nivel.lazy import dataclass, scipy
 from nivel.machine.core.placement import PARALLEL, frame_between
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 # pieces between points in which the length of a curve is found, four-point Gauss in each
 PIECES = 64
 

@@ -7,16 +7,23 @@ The vectors of a node are its place r and gradients: along the beam ∂r/∂X, a
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
-from numpy.typing import NDArray
 
+from nivel.elements.beams.beam import Beam
+from nivel.elements.beams.exact import gauss
+from nivel.elements.beams.sections import BeamSection
+from nivel.elements.states import Coupled
+from nivel.kernels.record.hook import Family
 from nivel.lazy import dataclass
-from nivel.machine.beams.beam import Beam
-from nivel.machine.beams.beam_section import BeamSection
-from nivel.system.beams.elements import gauss
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
-STRETCH_POINTS, BENDING_POINTS, BEAM_POINTS = 3, 2, 3
+if TYPE_CHECKING:
+    from nivel.system.builder import SystemBuilder
+
+VECTORS = 72  # places, rates and forces of an element
+STEP = 1e-30  # of a complex step
 
 
 def vectors_of_node(beam: Beam) -> int:
@@ -97,55 +104,12 @@ def as_points(width: int, reach: float) -> Array:
     return T
 
 
-@dataclass(frozen=True)
-class Strains:
-    """Strains of sections at points, and what they are measured with.
-
-    share : (n, g) between 0 and 1 in each element. weight : (n, g) [m]. value : (…, n, g, 6) (Γ, Κ).
-    """
-
-    share: Array
-    weight: Array
-    value: Array
-
-
 def gradients(axes: Array, modal: Array, change: Array) -> Array:
     """(…, 3, k) gradients of nodes, by axes (…, 3, 3) and modal coordinates (…, m); change : (k, 3, m) of each gradient in them, axes of
     the node."""
     k = len(change)
     local = np.eye(3)[:k] + np.einsum("kim,...m->...ki", change, modal)
     return np.einsum("...ij,...kj->...ik", axes, local)
-
-
-def beam_strains(beam: Beam, v: Array) -> Strains:
-    """Of `ancf-beam`, for the vectors v (…, N, 4, 3) of its nodes; complex ones too."""
-    xi, weight = gauss(BEAM_POINTS)
-    lengths = lengths_of(beam)
-    slope = np.stack([hermite(xi, length, 1) for length in lengths])
-    a, b = v[..., :-1, :, :], v[..., 1:, :, :]
-    line = np.stack([a[..., 0, :], a[..., 1, :], b[..., 0, :], b[..., 1, :]], axis=-2)
-    d = np.einsum("ngj,...nji->...ngi", slope, line)
-    across, turning = [], []
-    for j in (2, 3):
-        across.append(
-            np.einsum("g,...ni->...ngi", 1.0 - xi, a[..., j, :]) + np.einsum("g,...ni->...ngi", xi, b[..., j, :])
-        )
-        turning.append(((b - a)[..., j, :] / lengths[:, None])[..., None, :] + 0.0 * across[-1])
-    (Y, Z), (Ys, Zs) = across, turning
-
-    def dot(x: Array, y: Array) -> Array:
-        return np.sum(x * y, axis=-1)
-
-    value = [
-        0.5 * dot(d, d) - 0.5,
-        dot(d, Y),
-        dot(d, Z),
-        0.5 * (dot(Ys, Z) - dot(Zs, Y)),
-        dot(d, Zs),
-        -dot(d, Ys),
-    ]
-    share = np.tile(xi, (len(lengths), 1))
-    return Strains(share, weight * lengths[:, None], np.stack(value, axis=-1))
 
 
 def unstressed_vectors(beam: Beam) -> Array:
@@ -171,21 +135,30 @@ def line_at(beam: Beam, v: Array, xi: Array) -> Line:
     return Line(*(np.einsum("ngj,...nji->...ngi", each, vectors) for each in (first, second, third)))
 
 
-def cable_strains(beam: Beam, v: Array, xi: Array) -> tuple[Array, Array]:
-    """Stretch (…, n, g) and curvature vector (…, n, g, 3) [1/m], global axes, of a cable at xi (g,); for complex vectors too."""
-    line = line_at(beam, v, xi)
-    square = np.sum(line.slope**2, axis=-1)
-    return np.sqrt(square) - 1.0, np.cross(line.slope, line.bend) / square[..., None]
+def points_of(builder: SystemBuilder, beam: Beam) -> list[list[int]]:
+    """Markers of each node and of the tips of its gradients; the same ones at every call."""
+    reach, width = reach_of(beam), vectors_of_node(beam)
+    with builder.within(f"beams.{beam.name}"):
+        return [
+            [builder.frame(name), *(builder.tip(name, axis, reach) for axis in range(width - 1))]
+            for name in beam.node_names
+        ]
 
 
-def twists(axes: Array) -> Array:
-    """(…, N - 1) [rad] between nodes with axes (…, N, 3, 3), beyond the least turn from one x axis to the next."""
-    A, B = axes[..., :-1, :, :], axes[..., 1:, :, :]
-    carried = carried_over(A[..., 1], A[..., 0], B[..., 0])
-    return np.arctan2(-np.sum(carried * B[..., 2], axis=-1), np.sum(carried * B[..., 1], axis=-1))
+def moved_vectors(beam: Beam) -> Any:
+    """(n, 2, w, 3) complex vectors of both nodes, each of the n of their numbers moved by i STEP."""
+    v: Any = unstressed_vectors(beam).astype(complex)
+    count = v.size
+    return v + 1j * STEP * np.eye(count).reshape(count, *v.shape)
 
 
-def carried_over(y: Array, t: Array, s: Array) -> Array:
-    """Vectors y (…, 3) across t, turned by the least turn that takes the unit vector t to s."""
-    share = np.sum(s * y, axis=-1) / (1.0 + np.sum(t * s, axis=-1))
-    return y - share[..., None] * (t + s)
+def add_gradients(builder: SystemBuilder, beam: Beam, family: Family, numbers: list[list[float]]) -> None:
+    """The elements of a beam, whose nodes are bodies and whose gradients are points on these. numbers : of each, behind its vectors."""
+    points, axes = points_of(builder, beam), [builder.frame(name) for name in beam.node_names]
+    head = [beam.damping, reach_of(beam), reach_of(beam), *[0.0] * VECTORS]
+    for e, own in enumerate(numbers):
+        index = [*points[e], *points[e + 1]]
+        if beam.model == "ancf-cable":
+            index += axes[e : e + 2]
+        builder.elements.add(family, index, [*head, *own])
+        builder.noted.append(Coupled(frozenset(builder.markers.body[node] for node in axes[e : e + 2])))

@@ -1,1 +1,0 @@
-"""Beams and their sections."""

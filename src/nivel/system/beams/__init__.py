@@ -1,1 +1,0 @@
-"""Arrays of beams: nodes, elements, segments, tangents."""

@@ -33,7 +33,7 @@ class IntegratorFacts:
         accelerations : the residual with exact tangents, solved for accelerations and multipliers at the end of a step
         directions : the same for the rates of the state, by derivatives along directions (`nivel.kernels.residual.shifted_along`)
         complex shifts : the same with complex shares of a step (`nivel.kernels.residual.shifted_matrix`)
-        whole steps : residuals over a step in absolute coordinates, of the modules `over_steps` for rigid and for flexible machines
+        whole steps : residuals over a step in absolute coordinates, of the module `over_step`
         circuits : evaluations, and derivatives of circuits by hand
 
     ends : where steps end by themselves (`nivel.integrate.loop.corners`): at corners of functions of time; or there and at jumps of speeds
@@ -61,7 +61,7 @@ class IntegratorFacts:
     machines: Machines = "all"
     held: float = 1.0
     guarded: bool = False
-    over_steps: tuple[str, str] = ("", "")
+    over_step: str = ""
 
     def __reduce__(self) -> tuple[Callable[[str, str, Machines], IntegratorFacts], tuple[str, str, Machines]]:
         """Another process finds them beside the step: a compiled function does not travel."""
@@ -96,10 +96,6 @@ class IntegratorFacts:
     def knows_corners(self) -> bool:
         """Whether it ends its steps itself where functions of time have corners."""
         return self.ends != "anywhere"
-
-    def over_step(self, flexible: bool) -> str:
-        """Module of its residual over a whole step for machines with or without flexible bodies; empty: none."""
-        return self.over_steps[flexible]
 
 
 def _beside_the_step(module: str, name: str, machines: Machines) -> IntegratorFacts:

@@ -50,7 +50,7 @@ def _path(module: str, arrange: str, residual: str = "", *, dependent: bool = Fa
 # coordinates, velocities and rotations → equations; penalty methods share those of newton-euler
 PATHS: dict[tuple[str, str, str], PathFacts] = {
     ("absolute", "newton-euler", "euler-parameters"): _path("newton_euler", "absolute:arrange", "newton_euler"),
-    ("absolute", "lagrange", "euler-parameters"): _path("lagrange", "absolute:arrange_parameters", "lagrange_residual"),
+    ("absolute", "lagrange", "euler-parameters"): _path("lagrange", "absolute:arrange_parameters", "lagrange"),
     ("absolute", "lagrange", "euler-angles"): _path(
         "lagrange_three", "three_coordinates:arrange_euler_angles", "lagrange_three"
     ),
@@ -67,13 +67,13 @@ PATHS: dict[tuple[str, str, str], PathFacts] = {
 }
 
 # the same for machines with flexible bodies
-FLOATING = _path("floating_frame", "floating:arrange", "floating_frame")
+FLOATING = _path("newton_euler", "floating:arrange", "newton_euler")
 FLEXIBLE_TREE = _path("flexible_tree", "flexible_tree:arrange", "relative")
 FLEXIBLE: dict[tuple[str, str, str], PathFacts] = {
     ("absolute", "newton-euler", "euler-parameters"): FLOATING,
     ("relative", "newton-euler", "euler-parameters"): FLEXIBLE_TREE,
     ("independent", "newton-euler", "euler-parameters"): _path(
-        "floating_independent", "floating:arrange_independent", "floating_frame", dependent=True
+        "independent", "floating:arrange_independent", "newton_euler", dependent=True
     ),
 }
 

@@ -1,4 +1,5 @@
-"""The direct correction of states, whatever coordinates they are in: which level to put right, and pass after pass (report 44, §5.5)."""
+"""What evaluations and direct corrections of states have in common in all coordinates; which level a correction puts right, and pass after
+pass (report 44, §5.5)."""
 
 from __future__ import annotations
 
@@ -7,8 +8,9 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.lanes import is_whole, steepest
 from nivel.kernels.core.status import NOT_CLOSED, OK
+from nivel.kernels.record.hook import finish_forces
 from nivel.kernels.record.record import record_at
-from nivel.kernels.solve.saddle import CONTRADICTORY, PIVOTED, RANK, correction, exceeds
+from nivel.kernels.solve.saddle import CONTRADICTORY, PIVOTED, RANK, correction, exceeds, multipliers
 from nivel.native.function import shared, stage
 
 # Passes for the positions; and as many where they are visibly open after these, in a step too long or a position that there is not.
@@ -138,3 +140,22 @@ def correct_levels(machine, t, y, width, read, factorise, change):
         if what == VELOCITIES:
             return OK
     return OK
+
+
+@shared
+def find_accelerations(machine, t, y, ydot, width, load, factorise, whiten):
+    """Multipliers, whitened accelerations in `saddle.z`, and the rates of the states of forces and energies, from the state read before.
+
+    width : unknowns a body. Compiled into this one: load(machine, t, y), all applied forces; factorise(machine, y), the factor of S; and
+    whiten(machine, y), z of the forces. Returns a status, as the first two do.
+    """
+    status = load(machine, t, y)
+    if status == OK:
+        status = factorise(machine, y)
+    if status != OK:
+        return status
+    whiten(machine, y)
+    status = multipliers(machine, width)
+    if status != OK:
+        return status
+    return finish_forces(machine, t, ydot)

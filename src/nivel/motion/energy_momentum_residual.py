@@ -11,6 +11,16 @@ positions and axes do no work, forces between two bodies have one lever arm, and
 Elastic forces at the mean place do almost the work that their energy loses. The rest is done by a force along the mean motion, in the
 metric of the masses (Gonzalez 1996); in a machine that touches no ground along that part of it which carries no momentum. Its factor
 is a sum over the whole machine of the size of the step squared, so it stays out of the derivatives: it is made of real parts.
+
+Of a flexible body, with ċ of its centre of mass and momenta (Π̄, π) about it,
+
+    m (ċ₁ - ċ₀)/h = F        (A₁ Π̄₁ - A₀ Π̄₀)/h = T        (π₁ - π₀)/h = G + Q
+
+with F, T and Q of the applied forces and of the joints at the mean place and G in place of the velocity forces
+(`nivel.kernels.residual.flexible_over_step`), and c, A and p moved by the means of their rates. So F, T and Q do exactly the work by
+which the kinetic energy changes; elastic and damping forces and weight do exactly theirs. Nodes at interfaces meet at one mean place, so
+momenta are kept. What is missed by axes that turn with nodes, by forces on springs, and by G with geometric stiffening is done along the
+mean motion as between rigid bodies, where the momenta belonging to that motion are those of the modes too.
 """
 
 from __future__ import annotations
@@ -19,27 +29,35 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot, multiply
-from nivel.kernels.bodies.floating_frame import modes_of
+from nivel.kernels.bodies.floating_dynamics import do_flexible, gather_frames
+from nivel.kernels.bodies.floating_frame import bend_body, modes_of
 from nivel.kernels.bodies.locked_motion import internal_motion, locked_motion
 from nivel.kernels.bodies.rigid import load_weight
 from nivel.kernels.bodies.shared_mass import transposed_product
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import apply_forces, family
-from nivel.kernels.record.record import record_at
-from nivel.kernels.residual.flexible_over_step import begin_flexible_interval, push_modes
+from nivel.kernels.record.hook import apply_forces, call_hook, family
+from nivel.kernels.record.record import MODES, record_at
+from nivel.kernels.residual.flexible_over_step import (
+    balance_modes,
+    begin_flexible_interval,
+    central_momentum,
+    load_mean_modes,
+    mean_frame,
+    mean_inertia_force,
+    modal_elastic_energy,
+    note_central_inertia,
+    push_modes,
+)
 from nivel.kernels.residual.residual import load_multipliers
 from nivel.kernels.residual.shared_over_step import begin_shared_interval, change_shared_momenta
-from nivel.motion.newton_euler import read_markers, read_state
+from nivel.kernels.solve.flexible_partition import moves_with_modes
+from nivel.motion.newton_euler import first_rate, read_markers, read_state
 from nivel.native.function import leaf, stage
 
 # entries of StepResidual.numbers
 STEP, STORED, LEAST, FREE = 0, 1, 2, 3
-
-
-@leaf
-def first_rate(record):
-    """Where velocities stand in y: behind (R, θ) of the bodies and the modal coordinates of flexible ones."""
-    return 7 * record.bodies.mass.shape[0] + record.flexible.p.shape[0]
+# what the hook MODES does besides what it does at an instant
+CHANGE, LOAD, BALANCE = 100, 101, 102
 
 
 @stage
@@ -259,14 +277,81 @@ def residual(machine, job, t):
         status = apply_forces(machine, t, own.y)
     if status != OK:
         return status
-    stored = real(record.control.stored[0])
+    stored = real(record.control.stored[0]) + modal_elastic_energy(record.flexible)
     close_end(machine)
     for b in range(record.bodies.mass.shape[0]):
-        change_momentum(machine, b, h)
+        if not moves_with_modes(record, b):
+            change_momentum(machine, b, h)
     change_shared_momenta(machine, first_rate(record), h)
+    call_hook(machine, MODES, CHANGE, t)
     status = mean_forces(machine, t - 0.5 * h)
     if status != OK:
         return status
+    call_hook(machine, MODES, LOAD, t)
     push(machine, stored)
     balance_bodies(machine)
+    call_hook(machine, MODES, BALANCE, t)
+    return OK
+
+
+@stage
+def change_flexible_momentum(machine, f, h):
+    """Bring flexible body f from the end of the step to its mean place and mean rates, without the frames at its interfaces; its velocities
+    and modal rates at the end are written into the state, the change of its momenta per second into `residual.acceleration` (angular about
+    the centre of mass; linear) and, less G, into the rows of its modes."""
+    record = record_at(machine)
+    bodies, flexible, own, base = record.bodies, record.flexible, record.residual, record.newton.base
+    count, b, interval, y = bodies.mass.shape[0], flexible.body[f], own.interval, own.y
+    first, n = modes_of(flexible, f)
+    q, v, p, rate = 7 * b, first_rate(record) + 6 * b, 7 * count + first, first_rate(record) + 6 * count + first
+    A, start, m, x, rows = bodies.A[b], interval.start[b], bodies.mass[b], own.acceleration[b], own.value[6 * count :]
+    k = half_turn(base[q + 3 : q + 7], y[q + 3 : q + 7])
+    w0 = base[v + 3], base[v + 4], base[v + 5]
+    w1 = 4.0 * k[0] / h - w0[0], 4.0 * k[1] / h - w0[1], 4.0 * k[2] / h - w0[2]
+    for j in range(n):
+        flexible.pdot[first + j] = 2.0 * (y[p + j] - base[p + j]) / h - base[rate + j]
+        y[rate + j] = flexible.pdot[first + j]
+    V, momentum = central_momentum(bodies, flexible, f, w1)
+    missed = real(dot(w0, momentum) - dot((start[9], start[10], start[11]), w1))
+    for j in range(n):
+        missed += real(base[rate + j] * flexible.pddot[first + j] - interval.modal[first + j] * y[rate + j])
+        rows[first + j] = (flexible.pddot[first + j] - interval.modal[first + j]) / h
+    for i in range(3):
+        end = bodies.R[b, i] + bodies.c[b, i]
+        u = (end - start[i]) / h
+        y[v + i], y[v + 3 + i] = 2.0 * u - start[3 + i] + dot(A[i], V), w1[i]
+        x[i] = (dot(A[i], momentum) - start[6 + i]) / h
+        x[3 + i] = m * 2.0 * (u - start[3 + i]) / h
+        # from the mean place of the frame's origin
+        bodies.c[b, i] = 0.5 * (end + start[i] - y[q + i] - base[q + i])
+    arm = bodies.c[b, 0], bodies.c[b, 1], bodies.c[b, 2]
+    move_to_mean(machine, b, k, h)
+    for j in range(n):
+        flexible.p[first + j] = 0.5 * (y[p + j] + base[p + j])
+        flexible.pdot[first + j] = (y[p + j] - base[p + j]) / h
+    bend_body(bodies, flexible, f)
+    for i in range(3):
+        bodies.c[b, i] = arm[i]
+    power = mean_inertia_force(m, flexible, f, w0, w1, base, y, rate, rows[first : first + n])
+    interval.defect[f] = power - 0.5 * missed / h
+    note_central_inertia(machine, f, h)
+
+
+@family
+def pass_flexible(machine, job, t):
+    """One of the jobs above, or of those at an instant (`nivel.kernels.bodies.floating_dynamics`). Returns a status."""
+    record = record_at(machine)
+    flexible, own, h = record.flexible, record.residual, record.residual.interval.numbers[STEP]
+    if job == CHANGE:
+        for f in range(flexible.body.shape[0]):
+            change_flexible_momentum(machine, f, h)
+        for k in range(flexible.frame.shape[0]):
+            mean_frame(machine, k, h)
+    elif job == LOAD:
+        load_mean_modes(machine)
+        gather_frames(machine)
+    elif job == BALANCE:
+        balance_modes(machine, h, own.value[6 * record.bodies.mass.shape[0] :])
+    else:
+        return do_flexible(machine, job)
     return OK

@@ -18,7 +18,7 @@ from nivel.kernels.tree.flexible_whitening import (
     whiten_flexible_efforts,
     whiten_flexible_tree_rows,
 )
-from nivel.motion.tree_motion import WIDTH, correct_tree, evaluate_tree, normalise, read_markers
+from nivel.motion.tree_motion import WIDTH, correct_tree, evaluate_tree, move_coordinates, normalise, read_markers
 from nivel.native.entry import entry
 from nivel.native.function import stage
 
@@ -42,13 +42,26 @@ def load_flexible_tree(machine, t, y):
 
 
 @stage
-def factorise_flexible(machine):
-    """Factors of the mass matrix and of S = W Wᵀ in the state last read. Returns a status."""
+def factorise_flexible(machine, y):
+    """Factors of the mass matrix and of S = W Wᵀ in the state last read; y is not needed for them here. Returns a status."""
     status = factorise_flexible_tree(machine)
     if status != OK or record_at(machine).saddle.block.shape[0] == 0:
         return status
     whiten_flexible_tree_rows(machine)
     return factorise_rows(machine, WIDTH)
+
+
+@stage
+def whiten(machine, y):
+    """z of all applied and inertia forces; y is not needed for it here."""
+    whiten_flexible_efforts(machine)
+
+
+@stage
+def apply_change(machine, y, what):
+    """Apply the change found to the positions, or to the velocities."""
+    accelerate_flexible(machine, record_at(machine).tree.change)
+    move_coordinates(machine, y, what)
 
 
 @entry(EVALUATE)
@@ -62,7 +75,7 @@ def evaluate(machine, t, y, ydot):
         read_flexible_tree,
         load_flexible_tree,
         factorise_flexible,
-        whiten_flexible_efforts,
+        whiten,
         accelerate_flexible,
     )
 
@@ -77,4 +90,4 @@ def normalise_state(machine, t, y):
 @entry(CORRECT)
 def correct(machine, t, y):
     """Direct correction of the state onto the constraints."""
-    return correct_tree(machine, t, y, read_flexible_tree, factorise_flexible, accelerate_flexible)
+    return correct_tree(machine, t, y, read_flexible_tree, factorise_flexible, apply_change)

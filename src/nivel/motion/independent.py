@@ -4,6 +4,8 @@ v̇ = B u̇ + D with the independent accelerations u̇ from Bᵀ M B u̇ = Bᵀ 
 histories of multistep methods outlive a new partition. After every step the dependent velocities and positions are replaced by what
 the independent ones leave them; that is what these coordinates mean, so every stabilisation begins with it.
 
+Modes of flexible bodies are independent wherever the machine without them determines its dependent velocities.
+
 With friction in joints the accelerations come from `newton_euler`: the efforts are found there, with the Schur complement. They are
 the same accelerations.
 """
@@ -14,17 +16,17 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.rotation import rates_of_parameters
-from nivel.kernels.bodies.rigid import load_weight
+from nivel.kernels.bodies.floating_dynamics import FRAMES, ROOTS
 from nivel.kernels.core.lanes import is_whole, steepest
 from nivel.kernels.core.status import OK, SINGULAR
-from nivel.kernels.record.hook import apply_forces, family, finish_forces
-from nivel.kernels.record.record import CORRECT, EVALUATE, record_at
+from nivel.kernels.record.hook import call_hook, family, finish_forces
+from nivel.kernels.record.record import CORRECT, EVALUATE, FACTORS, record_at
 from nivel.kernels.solve.embedding import depend_on, embed, generalised_forces
 from nivel.kernels.solve.partition import divide, solve_dependent, solve_multipliers
 from nivel.kernels.solve.saddle import PIVOTED
 from nivel.motion.direct import STEEP
 from nivel.motion.newton_euler import evaluate as evaluate_newton_euler
-from nivel.motion.newton_euler import normalise, read_state, write_rate
+from nivel.motion.newton_euler import first_rate, load_bodies, normalise, read_state, write_rates
 from nivel.native.entry import entry
 from nivel.native.function import leaf, shared, stage
 
@@ -34,15 +36,24 @@ CLOSED, NEAR, LOST = 1e-13, 1e-6, 1e-6
 
 
 @stage
+def read_factorised(machine, t, y):
+    """The state, and the factors of floating frames, by which dependent rows are weighed. Returns a status."""
+    status = read_state(machine, t, y)
+    return call_hook(machine, FACTORS, ROOTS, t) if status == OK else status
+
+
+@stage
 def take_accelerations(record):
-    """Accelerations of bodies from those of the partition."""
+    """Accelerations of bodies and modes from those of the partition."""
     bodies, acceleration = record.bodies, record.partition.v
     for b in range(bodies.mass.shape[0]):
         for i in range(3):
             bodies.Rddot[b, i], bodies.alpha_b[b, i] = acceleration[6 * b + i], acceleration[6 * b + 3 + i]
+    for j in range(record.flexible.p.shape[0]):
+        record.flexible.pddot[j] = acceleration[6 * bodies.mass.shape[0] + j]
 
 
-@shared
+@stage
 def embedded_accelerations(machine):
     """Accelerations of the partition, and multipliers, for the state read and its forces. Returns a status."""
     record = record_at(machine)
@@ -68,21 +79,17 @@ def evaluate(machine, t, y, ydot):
     record = record_at(machine)
     if record.friction.columns.shape[0] > 0:
         return evaluate_newton_euler(machine, t, y, ydot)
-    bodies = record.bodies
-    nb = bodies.mass.shape[0]
-    status = read_state(machine, t, y)
-    if status != OK:
-        return status
-    load_weight(bodies)
-    status = apply_forces(machine, t, y)
+    status = read_factorised(machine, t, y)
+    if status == OK:
+        status = load_bodies(machine, t, y)
     if status == OK:
         status = embedded_accelerations(machine)
     if status != OK:
         return status
     status = finish_forces(machine, t, ydot)
     take_accelerations(record)
-    for b in range(nb):
-        write_rate(bodies, ydot, b, 7 * nb)
+    call_hook(machine, FACTORS, FRAMES, t)
+    write_rates(machine, ydot)
     return status
 
 
@@ -138,7 +145,7 @@ def close(machine, y, attempt, factorised, before, divide, move):
     """
     record = record_at(machine)
     constraints, partition, rank = record.constraints, record.partition, np.int64(record.control.rank[0])
-    first = 7 * record.bodies.mass.shape[0] + record.flexible.p.shape[0]
+    first = first_rate(record)
     share, worst = widest(machine)
     if np.isnan(share):
         return OK, True, False, share  # the next evaluation finds out
@@ -181,9 +188,9 @@ def keep_independent(machine, t, y, read, divide, move):
 
 @stage
 def read_normalised(machine, t, y):
-    """The state with Euler parameters of length one. Returns a status."""
+    """The same with Euler parameters of length one. Returns a status."""
     normalise(machine, y)
-    return read_state(machine, t, y)
+    return read_factorised(machine, t, y)
 
 
 @entry(CORRECT)

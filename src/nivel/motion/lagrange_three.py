@@ -16,9 +16,9 @@ from nivel.kernels.bodies.rigid import set_axes
 from nivel.kernels.core.status import OK, ROTATION_SINGULAR
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import CORRECT, EULER_ANGLES, EVALUATE, record_at
-from nivel.kernels.residual.residual import find_wrenches, write_rows
+from nivel.kernels.residual.residual import fill_residual, write_rows
 from nivel.motion.direct import POSITIONS, correct_levels
-from nivel.motion.newton_euler import WIDTH, accelerate, factorise, read_markers, unwhiten
+from nivel.motion.newton_euler import WIDTH, accelerate, factorise, read_markers, unwhiten_all
 from nivel.native.entry import entry
 from nivel.native.function import leaf, stage
 
@@ -115,9 +115,7 @@ def write_rate(machine, y, ydot, b):
 @stage
 def write_rates(machine, y, ydot):
     """(q̇, q̈) of ẏ, and the accelerations of the bodies."""
-    record = record_at(machine)
-    for b in range(record.bodies.mass.shape[0]):
-        unwhiten(record.bodies, record.saddle, b)
+    for b in range(record_at(machine).bodies.mass.shape[0]):
         write_rate(machine, y, ydot, b)
 
 
@@ -147,8 +145,8 @@ def apply_change(machine, y, what):
     record = record_at(machine)
     nb = record.bodies.mass.shape[0]
     first = 0 if what == POSITIONS else 6 * nb
+    unwhiten_all(machine)
     for b in range(nb):
-        unwhiten(record.bodies, record.saddle, b)
         change_body(record, y, b, first)
 
 
@@ -196,11 +194,4 @@ def write_bodies(machine):
 @family
 def residual(machine, job, t):
     """Fill `residual.value` for `residual.y`, `vdot` and `lam`; see `nivel.kernels.residual.residual`."""
-    record = record_at(machine)
-    status = read_state(machine, t, record.residual.y)
-    if status == OK:
-        accelerate_bodies(machine)
-        status = find_wrenches(machine, t)
-    if status == OK:
-        write_bodies(machine)
-    return status
+    return fill_residual(machine, t, read_state, accelerate_bodies, write_bodies)

@@ -14,10 +14,10 @@ import numpy as np
 
 from nivel.kernels.bodies.floating_frame import modes_of
 from nivel.kernels.record.record import MODAL, record_at
-from nivel.kernels.solve.saddle import solve_rows, subtract_rows
 from nivel.kernels.tree.flexible_whitening import accelerate_flexible, hand_efforts_inwards
+from nivel.motion.compliance import hold_rows
 from nivel.motion.flexible_tree import factorise_flexible
-from nivel.motion.tree_motion import WIDTH, write_positions
+from nivel.motion.tree_motion import write_positions
 from nivel.native.function import part, stage
 
 
@@ -30,7 +30,7 @@ def factorise_shifted_modes(machine, s):
         first, n = modes_of(own, f)
         for j in range(n):
             shift[first + j] = s * (own.damping[f, j] + s * own.stiffness[f, j])
-    status = factorise_flexible(machine)
+    status = factorise_flexible(machine, shift)
     for j in range(shift.shape[0]):
         shift[j] = 0.0
     return status
@@ -59,17 +59,11 @@ def solve_shifted_modes(machine, y, r, s):
     """Overwrite r (ny,) with x, the solution of (1 - s J) x = r, with the factors for s. y : state whose Euler parameters turn. Returns a
     status."""
     record = record_at(machine)
-    tree, saddle = record.tree, record.saddle
+    tree = record.tree
     positions, columns = np.int64(tree.positions[0]), tree.column.shape[0]
     load_shifted_modes(machine, r, s)
     hand_efforts_inwards(machine)
-    b = saddle.b
-    for k in range(b.shape[0]):
-        b[k] = 0.0
-    for k in range(saddle.blocks[0]):
-        b[saddle.block[k, 0]] += saddle.W[k, 0] * saddle.z[saddle.block[k, 3], 0]
-    status = solve_rows(machine, 0.0)
-    subtract_rows(saddle, WIDTH)
+    status = hold_rows(machine)
     accelerate_flexible(machine, tree.change)
     for k in range(columns):
         r[positions + k] += s * tree.change[k]

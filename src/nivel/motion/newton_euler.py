@@ -1,5 +1,8 @@
 """Absolute coordinates, Newton–Euler equations: six velocities a body, v = (Ṙ, ω̄), q = (R, θ) (report 44, eqs. 90–93).
 
+Modal coordinates p of flexible bodies stand behind (R, θ) of all bodies, ṗ behind (Ṙ, ω̄). All else that these bodies do otherwise is in
+`nivel.kernels.bodies.floating_dynamics`, called by the hooks MODES and FACTORS of the machines that have them.
+
 For a frame origin away from the centre of mass the unknowns are changed to w = (R̈ + α × c, ᾱ), in which the mass matrix is
 diag(m, J̄_c): the same equations, and its factor costs nothing.
 """
@@ -9,16 +12,27 @@ from __future__ import annotations
 from nivel.kernels.algebra.rotation import normalise_parameters, rates_of_parameters
 from nivel.kernels.algebra.spatial import dot, multiply
 from nivel.kernels.bodies.constraint import constraint_rows
+from nivel.kernels.bodies.floating_dynamics import (
+    BEND,
+    FACTORISE,
+    FRAMES,
+    GATHER,
+    MOVE_FRAMES,
+    NEEDED,
+    OWN_BIAS,
+    UNWHITEN,
+    WHITEN,
+)
 from nivel.kernels.bodies.marker import move_markers, place_markers
 from nivel.kernels.bodies.rigid import load_weight, place_body
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import apply_forces, family, finish_forces, measure_active
-from nivel.kernels.record.record import CORRECT, EVALUATE, record_at
-from nivel.kernels.residual.residual import find_wrenches, write_rows
-from nivel.kernels.solve.saddle import factorise_rows, multipliers
-from nivel.motion.direct import POSITIONS, correct_levels
+from nivel.kernels.record.hook import apply_forces, call_hook, family, measure_active
+from nivel.kernels.record.record import CORRECT, EVALUATE, FACTORS, MODES, record_at
+from nivel.kernels.residual.residual import fill_residual, write_rows
+from nivel.kernels.solve.saddle import factorise_rows
+from nivel.motion.direct import POSITIONS, correct_levels, find_accelerations
 from nivel.native.entry import entry
-from nivel.native.function import shared, stage
+from nivel.native.function import leaf, shared, stage
 
 WIDTH = 6
 
@@ -43,12 +57,25 @@ def read_bodies(bodies, y, first):
         multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
 
 
+@leaf
+def first_rate(record):
+    """Where velocities stand in y: behind (R, θ) of the bodies and the modal coordinates of flexible ones."""
+    return 7 * record.bodies.mass.shape[0] + record.flexible.p.shape[0]
+
+
 @stage
 def read_state(machine, t, y):
     """Poses and velocities of bodies and markers, and all constraint rows. Returns a status."""
-    bodies = record_at(machine).bodies
-    read_bodies(bodies, y, 7 * bodies.mass.shape[0])
-    return read_markers(machine, t)
+    record = record_at(machine)
+    bodies, own, first = record.bodies, record.flexible, first_rate(record)
+    read_bodies(bodies, y, first)
+    nb, modes = bodies.mass.shape[0], own.p.shape[0]
+    for j in range(modes):
+        own.p[j], own.pdot[j] = y[7 * nb + j], y[first + 6 * nb + j]
+    call_hook(machine, MODES, BEND, t)
+    status = read_markers(machine, t)
+    call_hook(machine, MODES, OWN_BIAS, t)
+    return status
 
 
 @stage
@@ -135,6 +162,15 @@ def unwhiten(bodies, saddle, b):
 
 
 @stage
+def unwhiten_all(machine):
+    """Accelerations of all bodies and modes from z; also their changes in a correction."""
+    record = record_at(machine)
+    for b in range(record.bodies.mass.shape[0]):
+        unwhiten(record.bodies, record.saddle, b)
+    call_hook(machine, FACTORS, UNWHITEN, 0.0)
+
+
+@stage
 def write_rate(bodies, ydot, b, first):
     """(Ṙ, θ̇, R̈, ᾱ) of body b in ẏ; the latter two stand from `first` on for all bodies."""
     q, v = 7 * b, first + 6 * b
@@ -147,13 +183,14 @@ def write_rate(bodies, ydot, b, first):
 
 @stage
 def write_rates(machine, ydot):
-    """(Ṙ, θ̇, R̈, ᾱ) of ẏ, from z."""
+    """(Ṙ, θ̇, ṗ, R̈, ᾱ, p̈) of ẏ."""
     record = record_at(machine)
-    bodies = record.bodies
+    bodies, own, first = record.bodies, record.flexible, first_rate(record)
     nb = bodies.mass.shape[0]
     for b in range(nb):
-        unwhiten(bodies, record.saddle, b)
-        write_rate(bodies, ydot, b, 7 * nb)
+        write_rate(bodies, ydot, b, first)
+    for j in range(own.p.shape[0]):
+        ydot[7 * nb + j], ydot[first + 6 * nb + j] = own.pdot[j], own.pddot[j]
 
 
 @stage
@@ -178,28 +215,33 @@ def change_body(record, y, b, first, at_positions):
 def factorise(machine, y):
     """W of all rows, and the factor of S; y is not needed for them here. Returns a status."""
     whiten_rows(machine)
-    return factorise_rows(machine, WIDTH)
+    status = call_hook(machine, FACTORS, FACTORISE, 0.0)
+    return factorise_rows(machine, WIDTH) if status == OK else status
+
+
+@stage
+def load_bodies(machine, t, y):
+    """All applied forces on bodies and modes. Returns a status."""
+    load_weight(record_at(machine).bodies)
+    status = apply_forces(machine, t, y)
+    return call_hook(machine, MODES, GATHER, t) if status == OK else status
+
+
+@stage
+def whiten_all_forces(machine, y):
+    """z of all bodies and modes; y is not needed for it here."""
+    whiten_forces(machine)
+    call_hook(machine, FACTORS, WHITEN, 0.0)
 
 
 @shared
 def accelerate(machine, t, y, ydot):
-    """Multipliers, whitened accelerations in `saddle.z`, and the rates of the states of forces and energies, from the state read before.
-
-    Returns a status.
-    """
-    record = record_at(machine)
-    load_weight(record.bodies)
-    status = apply_forces(machine, t, y)
-    if status != OK:
-        return status
-    status = factorise(machine, y)
-    if status != OK:
-        return status
-    whiten_forces(machine)
-    status = multipliers(machine, WIDTH)
-    if status != OK:
-        return status
-    return finish_forces(machine, t, ydot)
+    """Multipliers, accelerations, and the rates of the states of forces and energies, from the state read before. Returns a status."""
+    status = find_accelerations(machine, t, y, ydot, WIDTH, load_bodies, factorise, whiten_all_forces)
+    if status == OK:
+        unwhiten_all(machine)
+        call_hook(machine, FACTORS, FRAMES, t)
+    return status
 
 
 @entry(EVALUATE)
@@ -232,12 +274,15 @@ def read_normalised(machine, t, y):
 
 @stage
 def apply_change(machine, y, what):
-    """Apply the change found to (R, θ) or (Ṙ, ω̄)."""
+    """Apply the change found to (R, θ, p) or (Ṙ, ω̄, ṗ)."""
     record = record_at(machine)
-    nb = record.bodies.mass.shape[0]
+    nb, first = record.bodies.mass.shape[0], first_rate(record)
+    unwhiten_all(machine)
     for b in range(nb):
-        unwhiten(record.bodies, record.saddle, b)
-        change_body(record, y, b, 7 * nb, what == POSITIONS)
+        change_body(record, y, b, first, what == POSITIONS)
+    at = 7 * nb if what == POSITIONS else first + 6 * nb
+    for j in range(record.flexible.p.shape[0]):
+        y[at + j] += record.flexible.pddot[j]
 
 
 @entry(CORRECT)
@@ -246,27 +291,37 @@ def correct(machine, t, y):
     return correct_levels(machine, t, y, WIDTH, read_normalised, factorise, apply_change)
 
 
-@family
-def residual(machine, job, t):
-    """Fill `residual.value` for `residual.y`, `vdot` and `lam`; see `nivel.kernels.residual.residual`."""
+@stage
+def accelerate_bodies(machine):
+    """`residual.acceleration` of all bodies and frames from (R̈, ᾱ, p̈) in `residual.vdot`."""
     record = record_at(machine)
-    bodies, own = record.bodies, record.residual
+    bodies, flexible, own = record.bodies, record.flexible, record.residual
     count = bodies.mass.shape[0]
-    status = read_state(machine, t, own.y)
-    if status != OK:
-        return status
     for b in range(count):
         A, x, v = bodies.A[b], own.acceleration[b], own.vdot[6 * b : 6 * b + 6]
         for i in range(3):
             x[i] = A[i, 0] * v[3] + A[i, 1] * v[4] + A[i, 2] * v[5]
             x[3 + i] = v[i]
-    status = find_wrenches(machine, t)
-    if status != OK:
-        return status
+    for j in range(flexible.p.shape[0]):
+        flexible.pddot[j] = own.vdot[6 * count + j]
+    call_hook(machine, MODES, MOVE_FRAMES, 0.0)
+
+
+@stage
+def write_bodies(machine):
+    """The rows of all bodies and modes from `residual.wrench`, rates of the states of forces, and constraints."""
+    record = record_at(machine)
+    bodies, own, count = record.bodies, record.residual, record.bodies.mass.shape[0]
+    call_hook(machine, MODES, NEEDED, 0.0)
     for b in range(count):
         A, F = bodies.A[b], own.wrench[b]
         for i in range(3):
             own.value[6 * b + i] = F[3 + i]
             own.value[6 * b + 3 + i] = A[0, i] * F[0] + A[1, i] * F[1] + A[2, i] * F[2]
-    write_rows(machine, 6 * count)
-    return OK
+    write_rows(machine, 6 * count + record.flexible.p.shape[0])
+
+
+@family
+def residual(machine, job, t):
+    """Fill `residual.value` for `residual.y`, `vdot` and `lam`; see `nivel.kernels.residual.residual`."""
+    return fill_residual(machine, t, read_state, accelerate_bodies, write_bodies)

@@ -16,7 +16,7 @@ from nivel.kernels.tree.articulated import accelerate, factorise_tree, whiten_ef
 from nivel.kernels.tree.flexible_tree import clear_frames
 from nivel.kernels.tree.tree import move_tree
 from nivel.kernels.tree.tree_nodes import accelerate_nodes, hand_inwards, move_nodes
-from nivel.motion.tree_motion import WIDTH, correct_tree, evaluate_tree, normalise, read_markers
+from nivel.motion.tree_motion import WIDTH, correct_tree, evaluate_tree, move_coordinates, normalise, read_markers
 from nivel.native.entry import entry
 from nivel.native.function import stage
 
@@ -36,8 +36,8 @@ def load_tree(machine, t, y):
 
 
 @stage
-def factorise(machine):
-    """Factors of the mass matrix and of S = W Wᵀ in the state last read. Returns a status."""
+def factorise(machine, y):
+    """Factors of the mass matrix and of S = W Wᵀ in the state last read; y is not needed for them here. Returns a status."""
     record = record_at(machine)
     factorise_tree(record.bodies, record.tree)
     if record.saddle.block.shape[0] == 0:
@@ -46,10 +46,23 @@ def factorise(machine):
     return factorise_rows(machine, WIDTH)
 
 
+@stage
+def whiten(machine, y):
+    """z of all applied and inertia forces; y is not needed for it here."""
+    whiten_efforts(machine)
+
+
+@stage
+def apply_change(machine, y, what):
+    """Apply the change found to the positions, or to the velocities."""
+    accelerate(machine, record_at(machine).tree.change)
+    move_coordinates(machine, y, what)
+
+
 @entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
     """ẏ. Leaves everything else in the record but what `nivel.kernels.tree.tree_outputs` adds for frames."""
-    return evaluate_tree(machine, t, y, ydot, read_state, load_tree, factorise, whiten_efforts, accelerate)
+    return evaluate_tree(machine, t, y, ydot, read_state, load_tree, factorise, whiten, accelerate)
 
 
 @entry(CORRECT)
@@ -62,7 +75,7 @@ def normalise_state(machine, t, y):
 @entry(CORRECT)
 def correct(machine, t, y):
     """Direct correction of the state onto the constraints."""
-    return correct_tree(machine, t, y, read_state, factorise, accelerate)
+    return correct_tree(machine, t, y, read_state, factorise, apply_change)
 
 
 # The residual in relative coordinates: accelerations from the ground outwards, wrenches inwards (recursive Newton–Euler; Luh, Walker,

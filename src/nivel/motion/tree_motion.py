@@ -9,19 +9,9 @@ from nivel.kernels.algebra.rotation import normalise_parameters, rates_of_parame
 from nivel.kernels.bodies.constraint import constraint_rows
 from nivel.kernels.bodies.marker import move_marker, place_point, turn_axes
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import finish_forces, measure_active
+from nivel.kernels.record.hook import measure_active
 from nivel.kernels.record.record import record_at
-from nivel.kernels.solve.saddle import multipliers
-from nivel.motion.direct import (
-    LOST,
-    MOST_CORRECTIONS,
-    NOTHING,
-    VELOCITIES,
-    find_correction,
-    is_near,
-    name_lost,
-    open_level,
-)
+from nivel.motion.direct import VELOCITIES, correct_levels, find_accelerations
 from nivel.native.function import shared, stage
 
 
@@ -87,16 +77,9 @@ def evaluate_tree(machine, t, y, ydot, read, load, factorise, whiten, accelerate
     tree = record_at(machine).tree
     status = read(machine, t, y)
     if status == OK:
-        status = load(machine, t, y)
-    if status == OK:
-        status = factorise(machine)
+        status = find_accelerations(machine, t, y, ydot, WIDTH, load, factorise, whiten)
     if status != OK:
         return status
-    whiten(machine)
-    status = multipliers(machine, WIDTH)
-    if status != OK:
-        return status
-    status = finish_forces(machine, t, ydot)
     positions, columns = np.int64(tree.positions[0]), tree.column.shape[0]
     for k in range(positions):
         tree.state[k] = y[k]
@@ -106,42 +89,26 @@ def evaluate_tree(machine, t, y, ydot, read, load, factorise, whiten, accelerate
     return status
 
 
-@shared
-def correct_tree(machine, t, y, read, factorise, accelerate):
-    """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137), least in the mass metric.
-
-    read, factorise, accelerate : the recursion of a tree, compiled into this one. Returns a status.
-    """
-    record = record_at(machine)
-    tree, change = record.tree, record.tree.change
-    positions, columns = np.int64(tree.positions[0]), tree.column.shape[0]
+@stage
+def move_coordinates(machine, y, what):
+    """Apply the change of joint velocities in `tree.change` to the positions, or to the velocities."""
+    tree = record_at(machine).tree
+    positions = np.int64(tree.positions[0])
+    if what == VELOCITIES:
+        for k in range(tree.column.shape[0]):
+            y[positions + k] += tree.change[k]
+        return
+    for n in range(tree.node.shape[0]):
+        write_positions(machine, y, tree.change, tree.moved, n, np.int64(tree.node[n, 4]))
+    for k in range(positions):
+        y[k] += tree.moved[k]
     normalise(machine, y)
-    if record.saddle.row.shape[0] == 0:
+
+
+@shared
+def correct_tree(machine, t, y, read, factorise, change):
+    """Direct correction of the state onto the constraints, see `nivel.motion.direct.correct_levels`. Returns a status."""
+    normalise(machine, y)
+    if record_at(machine).saddle.row.shape[0] == 0:
         return OK
-    factorised = False
-    for attempt in range(MOST_CORRECTIONS + 1):
-        status = read(machine, t, y)
-        if status != OK:
-            return status
-        what = open_level(machine, attempt)
-        if what == NOTHING:
-            return OK
-        if what == LOST:
-            return name_lost(machine)
-        if not factorised:
-            status = factorise(machine)
-            if status != OK:
-                return status
-        factorised = is_near(machine)
-        find_correction(machine, what, WIDTH)
-        accelerate(machine, change)
-        if what == VELOCITIES:
-            for k in range(columns):
-                y[positions + k] += change[k]
-            return OK
-        for n in range(tree.node.shape[0]):
-            write_positions(machine, y, change, tree.moved, n, np.int64(tree.node[n, 4]))
-        for k in range(positions):
-            y[k] += tree.moved[k]
-        normalise(machine, y)
-    return OK
+    return correct_levels(machine, t, y, WIDTH, read, factorise, change)

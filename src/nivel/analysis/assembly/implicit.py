@@ -250,6 +250,8 @@ def _hooks(system: System, path: PathFacts, wanted: ResidualOptions, *, by_hand:
         address[TANGENT] = tangent.address
     if len(record.modal.carrier):
         address[MODES] = pass_modes.address
+    elif wanted.whole and len(record.flexible.body):
+        address[MODES] = import_module(wanted.whole).pass_flexible.address
     if len(record.tree.slider):
         address[PASS] = pass_nodes.address
         address[SLIDERS] = pass_sliders.address

@@ -29,7 +29,7 @@ from nivel.kernels.signals.functions import compute, rate_states, read_inputs
 from nivel.lazy import nivel, rich
 from nivel.machine.control.unit_output import CFacts, UnitFacts
 from nivel.machine.machine_record import MachineRecord
-from nivel.motion.catalogue import FLEXIBLE, FLOATING, IMPLICIT_ACCELERATIONS, PATHS
+from nivel.motion.catalogue import FLEXIBLE, IMPLICIT_ACCELERATIONS, PATHS
 from nivel.native import library
 from nivel.native.entry import Entry, entry_of
 from nivel.native.workers import NO_COMPILER, UNKNOWN_LEVEL, CompilationError
@@ -50,11 +50,14 @@ HEIGHT_WAY = "nivel.elements.contacts.height_way"
 GIVEN_FRICTION, RAIL = "nivel.kernels.residual.friction_residual", "nivel.kernels.bodies.rail"
 OF_BEAMS = "nivel.elements.beams.exact_slopes"
 POINTS = "nivel.kernels.residual.point_inertia"
+# flexible bodies in coordinates of single bodies: at an instant, and over a whole step
+OF_FRAMES, OVER_STEP = "nivel.kernels.bodies.floating_dynamics", "nivel.motion.energy_momentum_residual:pass_flexible"
+AT_INSTANT = f"{OF_FRAMES}:pass_flexible"
 # nodes of trees that are no joints, for residuals in relative coordinates
 OF_MODES, OF_SLIDERS = "nivel.kernels.tree.modal_nodes", "nivel.kernels.tree.tree_nodes"
 PASSING = "nivel.kernels.residual.element_crossing"
 # modules, besides those of residuals and forces, that exact derivatives may need on dual numbers
-WITH_DERIVATIVES = (MEASURE, RAIL, GIVEN_FRICTION, POINTS, OF_MODES, OF_SLIDERS)
+WITH_DERIVATIVES = (MEASURE, RAIL, GIVEN_FRICTION, POINTS, AT_INSTANT, OVER_STEP, OF_MODES, OF_SLIDERS)
 # the loads of redundant joints in frames, known only when a machine is assembled
 SHARED_LOADS = "nivel.motion.shared_loads"
 # what completes the frames of runs in relative coordinates
@@ -65,7 +68,7 @@ COMPLETIONS = tuple(
 # all modules that some machines, runs or trees need
 OF_MACHINES = (MEASURE, FRICTION, RAIL, POINTS, SENSOR, WATCH, HEIGHT_WAY, SAMPLING, OF_BEAMS, GIVEN_FRICTION)
 OF_RUNS = (LOOP, FOLLOWING, PACED, REPEATED, STATICS, TANGENT_ENTRIES, OUTPUT, SHARED_LOADS)
-OF_TREES = (OF_MODES, OF_SLIDERS, PASSING, IMPLICIT_ACCELERATIONS, *COMPLETIONS)
+OF_TREES = (OF_FRAMES, OF_MODES, OF_SLIDERS, PASSING, IMPLICIT_ACCELERATIONS, *COMPLETIONS)
 
 
 def build(entries: Iterable[Entry], listener: Listener | None) -> float:
@@ -134,11 +137,13 @@ def preparation_entries(methods: Methods) -> list[Entry]:
     """What it takes to prepare a machine for these methods."""
     machine, path, integrator = methods.machine, methods.path, methods.integrator
     modules = _rare_modules(machine)
+    if machine.is_flexible and methods.coordinates != "relative":
+        modules += [OF_FRAMES, *([OVER_STEP] if integrator.over_step else [])]
     twins: list[Entry] = []
     if integrator.residual or methods.solves_residual:
         modules += _node_modules(methods)
         plain = integrator.needs in ("whole steps", "directions") or methods.formulation == "lagrange"
-        residual = integrator.over_step(machine.is_flexible) or path.residual
+        residual = integrator.over_step or path.residual
         twins = _with_twins(residual, modules, _families(machine), held=not plain)
         twins += _with_twins(path.residual, [], []) if methods.solves_residual else []
         twins.append(entry_of(RESIDUAL))
@@ -167,7 +172,7 @@ def run_entries(plan: Plan) -> list[Entry]:
         modules.append(HEIGHT_WAY)
     path = methods.path
     if methods.machine.is_flexible:
-        modules.append(FLOATING.module)  # singular positions are searched for in absolute coordinates
+        modules += [OF_FRAMES, f"{ASSEMBLY}:evaluate"]  # singular positions are searched for in absolute coordinates
     after_steps = f"{path.correction}:correct" if plan.stabilisation.corrects else f"{path.module}:normalise_state"
     return [*preparation_entries(methods), methods.integrator.step, *_entries(modules), entry_of(after_steps)]
 
@@ -199,7 +204,7 @@ def all_entries() -> list[Entry]:
     modules = [facts.module for facts in integrators]
     for facts in paths:
         modules += [facts.module, facts.correction, facts.residual, facts.dependent]
-    over_steps = [module for facts in integrators for module in facts.over_steps]
+    over_steps = [facts.over_step for facts in integrators]
     modules += [*over_steps, *OF_MACHINES, *OF_RUNS, *OF_TREES]
     signals = (read_inputs, compute, rate_states, c_output, fmu_output, run_expression)
     forces = (family for kind in FORCES.values() for family in kind.families)
@@ -273,7 +278,7 @@ def _motions(machine: MachineRecord) -> list[Family]:
 
 def _node_modules(methods: Methods) -> list[str]:
     """Modules of nodes of the tree that are no joints."""
-    of_modes = [OF_MODES] if methods.machine.is_flexible and methods.coordinates == "relative" else []
+    of_modes = [OF_MODES if methods.coordinates == "relative" else AT_INSTANT] if methods.machine.is_flexible else []
     return [*of_modes, *([OF_SLIDERS, PASSING] if methods.sliding else [])]
 
 

@@ -293,7 +293,7 @@ def _wanted(motion: MotionEquations, y: Array, methods: Methods) -> ResidualOpti
     if len(saddle.dense) and not methods.solves_residual:
         compliance = soft_rows(motion, y)
     return ResidualOptions(
-        whole=integrator.over_step(machine.is_flexible),
+        whole=integrator.over_step,
         corners=corners(machine, at_begin=integrator.ends == "jumps"),
         shifted=integrator.needs == "complex shifts",
         balance=methods.solves_residual,

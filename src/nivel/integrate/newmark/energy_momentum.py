@@ -80,6 +80,6 @@ FACTS = (
         order=2,
         kind="corrector",
         needs="whole steps",
-        over_steps=("nivel.motion.energy_momentum_residual", "nivel.motion.floating_energy_momentum_residual"),
+        over_step="nivel.motion.energy_momentum_residual",
     ),
 )

@@ -10,12 +10,26 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import centripetal, cross, dot, multiply
-from nivel.kernels.bodies.floating_frame import dot_modes, modes_of
+from nivel.kernels.bodies.floating_frame import (
+    accelerate_frames,
+    add_bias,
+    bend,
+    dot_modes,
+    modal_momentum,
+    modes_of,
+    move_frames,
+)
 from nivel.kernels.bodies.geometric_stiffening import add_velocity_forces, multiply_rows
 from nivel.kernels.core.status import NO_MASS_LEFT, OK
 from nivel.kernels.record.flexible_record import SHORTENING, TURNING
+from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf, stage
+
+# what the hook MODES does in coordinates of single bodies: what states, forces and residuals need
+BEND, OWN_BIAS, GATHER, MOVE_FRAMES, NEEDED = 0, 1, 2, 3, 4
+# what the hook FACTORS does: factors, rows and forces whitened by them, accelerations; and the latter for frames at interfaces
+ROOTS, FACTORISE, WHITEN, UNWHITEN, FRAMES = 0, 1, 2, 3, 4
 
 
 @stage
@@ -306,6 +320,23 @@ def unwhiten_flexible(machine):
 
 
 @stage
+def frame_momenta(bodies, own, f, v, w, rates, at):
+    """(linear, angular about the origin) momentum of the frame of flexible body f for velocities v, w and modal ones, `rates` from `at` on,
+    all in axes of the body; for accelerations what they ask for."""
+    S, J, B, m, (_, n) = own.first[f], own.inertia[f], own.coupling[f], bodies.mass[own.body[f]], modes_of(own, f)
+    swing, heave = cross(w, S), cross(S, v)
+    return (
+        m * v[0] + swing[0] + dot_modes(B[0], rates, at, n),
+        m * v[1] + swing[1] + dot_modes(B[1], rates, at, n),
+        m * v[2] + swing[2] + dot_modes(B[2], rates, at, n),
+    ), (
+        heave[0] + dot(J[0], w) + dot_modes(B[3], rates, at, n),
+        heave[1] + dot(J[1], w) + dot_modes(B[4], rates, at, n),
+        heave[2] + dot(J[2], w) + dot_modes(B[5], rates, at, n),
+    )
+
+
+@stage
 def flexible_wrench(bodies, own, f, acceleration, wrench, effort):
     """What the accelerations of flexible body f ask for, less all applied and velocity forces: on its frame into wrench[b], as
     (moment, force), on its modes into effort (m,). acceleration : (α, R̈) of all bodies; of the modes `pddot`."""
@@ -315,41 +346,18 @@ def flexible_wrench(bodies, own, f, acceleration, wrench, effort):
     velocity_forces(bodies, own, f, own.velocity_force[f])
     alpha = dot(A[:, 0], x[0:3]), dot(A[:, 1], x[0:3]), dot(A[:, 2], x[0:3])
     a = dot(A[:, 0], x[3:6]), dot(A[:, 1], x[3:6]), dot(A[:, 2], x[3:6])
-    a0, a1, a2, b0, b1, b2 = a[0], a[1], a[2], alpha[0], alpha[1], alpha[2]
     for j in range(n):
-        effort[first + j] = (
-            own.pddot[first + j] - own.Q[first + j]
-            + (a0 * B[0, j] + a1 * B[1, j] + a2 * B[2, j] + b0 * B[3, j] + b1 * B[4, j] + b2 * B[5, j])
-        )  # fmt: skip
+        effort[first + j] = own.pddot[first + j] - own.Q[first + j] + modal_momentum(B, a, alpha, j)
     needed_by_frame(bodies, own, f, alpha, a, wrench[b])
 
 
 @stage
 def needed_by_frame(bodies, own, f, alpha, a, out):
     """(moment, force) that the frame of flexible body f needs for ᾱ and R̈ in axes of the body, less all applied and velocity forces."""
-    b = own.body[f]
-    first, n = modes_of(own, f)
-    A, S, J, B, F, q = (
-        bodies.A[b],
-        own.first[f],
-        own.inertia[f],
-        own.coupling[f],
-        bodies.wrench[b],
-        own.velocity_force[f],
-    )
-    swing, heave, m = cross(alpha, S), cross(S, a), bodies.mass[b]
-    force = (
-        m * a[0] + swing[0] - q[0] + dot_modes(B[0], own.pddot, first, n),
-        m * a[1] + swing[1] - q[1] + dot_modes(B[1], own.pddot, first, n),
-        m * a[2] + swing[2] - q[2] + dot_modes(B[2], own.pddot, first, n),
-    )
-    moment = (
-        heave[0] + dot(J[0], alpha) - q[3] + dot_modes(B[3], own.pddot, first, n),
-        heave[1] + dot(J[1], alpha) - q[4] + dot_modes(B[4], own.pddot, first, n),
-        heave[2] + dot(J[2], alpha) - q[5] + dot_modes(B[5], own.pddot, first, n),
-    )
-    multiply(A, moment, out[0:3])
-    multiply(A, force, out[3:6])
+    A, F, q = bodies.A[own.body[f]], bodies.wrench[own.body[f]], own.velocity_force[f]
+    p, h = frame_momenta(bodies, own, f, a, alpha, own.pddot, modes_of(own, f)[0])
+    multiply(A, (h[0] - q[3], h[1] - q[4], h[2] - q[5]), out[0:3])
+    multiply(A, (p[0] - q[0], p[1] - q[1], p[2] - q[2]), out[3:6])
     for i in range(3):
         out[i] -= F[3 + i]
         out[3 + i] -= F[i]
@@ -375,6 +383,46 @@ def flexible_kinetic_energy(bodies, own, f):
     total += 0.5 * (w[0] * dot(J[0], w) + w[1] * dot(J[1], w) + w[2] * dot(J[2], w))
     for j in range(n):
         rate = own.pdot[first + j]
-        along = B[0, j] * v[0] + B[1, j] * v[1] + B[2, j] * v[2]
-        total += rate * (along + B[3, j] * w[0] + B[4, j] * w[1] + B[5, j] * w[2] + 0.5 * rate)
+        total += rate * (modal_momentum(B, v, w, j) + 0.5 * rate)
     return total
+
+
+@stage
+def do_flexible(machine, job):
+    """One of the jobs of the hook MODES, for all flexible bodies. Returns a status."""
+    record = record_at(machine)
+    if job == BEND:
+        bend(machine)
+    elif job == OWN_BIAS:
+        add_bias(machine)
+    elif job == GATHER:
+        gather(machine)
+    elif job == MOVE_FRAMES:
+        move_frames(machine)
+    else:
+        own, first = record.residual, 6 * record.bodies.mass.shape[0]
+        for f in range(record.flexible.body.shape[0]):
+            flexible_wrench(record.bodies, record.flexible, f, own.acceleration, own.wrench, own.value[first:])
+    return OK
+
+
+@family
+def pass_flexible(machine, job, t):
+    """One of the jobs of the hook MODES, for all flexible bodies. Returns a status."""
+    return do_flexible(machine, job)
+
+
+@family
+def solve_flexible(machine, job, t):
+    """One of the jobs of the hook FACTORS, for all flexible bodies. Returns a status."""
+    if job == FACTORISE:
+        return whiten_flexible_rows(machine)
+    if job == ROOTS:
+        return factorise_frames(machine)
+    if job == WHITEN:
+        whiten_flexible_forces(machine)
+    elif job == UNWHITEN:
+        unwhiten_flexible(machine)
+    else:
+        accelerate_frames(machine)
+    return OK

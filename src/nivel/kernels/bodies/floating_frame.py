@@ -105,6 +105,12 @@ def dot_modes(row, p, first, n):
     return total
 
 
+@leaf
+def modal_momentum(B, v, w, j):
+    """What velocities v and w of the frame, axes of the body, add to the momentum of mode j: Bᵀ (v, w)."""
+    return B[0, j] * v[0] + B[1, j] * v[1] + B[2, j] * v[2] + (B[3, j] * w[0] + B[4, j] * w[1] + B[5, j] * w[2])
+
+
 @stage
 def follow_node(own, k, i, first, n):
     """Displacement (i below 3) or turn of the node of frame k by the modes, its rate, and its second derivative for p̈ = 0, with the

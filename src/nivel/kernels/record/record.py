@@ -488,7 +488,8 @@ EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
     SLIDERS,
     SAMPLE,
 ) = range(16)  # entries of Hooks.address
-HOOKS = 16
+FACTORS = 16  # of flexible bodies in coordinates of single bodies; other jobs of theirs are of MODES
+HOOKS = 17
 LOCK, DEPART, RESUME = 0, 1, 2  # jobs of the hook PASS
 # what the hooks MODES and SLIDERS do for a node, and MODES for all flexible bodies, see `nivel.kernels.tree.tree_nodes`
 MOVE, ACCELERATE, HAND, LOAD, NEED = 0, 1, 2, 3, 4

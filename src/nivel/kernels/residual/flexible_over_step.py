@@ -17,7 +17,8 @@ from __future__ import annotations
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot
-from nivel.kernels.bodies.floating_frame import FACTORS, TURN, dot_modes, find_node, modes_of, turned
+from nivel.kernels.bodies.floating_dynamics import frame_momenta
+from nivel.kernels.bodies.floating_frame import FACTORS, TURN, dot_modes, find_node, modal_momentum, modes_of, turned
 from nivel.kernels.record.flexible_record import SHORTENING, TURNING
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf, stage
@@ -36,21 +37,13 @@ def origin_velocity(mass, own, f, w, rates, at):
 
 
 @stage
-def central_momentum(mass, own, f, w):
+def central_momentum(bodies, own, f, w):
     """(V, Π̄) of flexible body f for ω̄ = w and the modal rates `pdot`; its modal momenta π are left in `pddot`."""
-    S, J, B, (first, n) = own.first[f], own.inertia[f], own.coupling[f], modes_of(own, f)
-    V = origin_velocity(mass, own, f, w, own.pdot, first)
-    heave = cross(S, V)
+    first, n = modes_of(own, f)
+    V = origin_velocity(bodies.mass[own.body[f]], own, f, w, own.pdot, first)
     for j in range(n):
-        own.pddot[first + j] = (
-            own.pdot[first + j] + B[0, j] * V[0] + B[1, j] * V[1] + B[2, j] * V[2]
-            + B[3, j] * w[0] + B[4, j] * w[1] + B[5, j] * w[2]
-        )  # fmt: skip
-    return V, (
-        heave[0] + dot(J[0], w) + dot_modes(B[3], own.pdot, first, n),
-        heave[1] + dot(J[1], w) + dot_modes(B[4], own.pdot, first, n),
-        heave[2] + dot(J[2], w) + dot_modes(B[5], own.pdot, first, n),
-    )
+        own.pddot[first + j] = own.pdot[first + j] + modal_momentum(own.coupling[f], V, w, j)
+    return V, frame_momenta(bodies, own, f, V, w, own.pdot, first)[1]
 
 
 @stage
@@ -62,7 +55,7 @@ def begin_flexible_interval(machine):
         b = own.body[f]
         first, n = modes_of(own, f)
         A, w, start = bodies.A[b], bodies.omega_b[b], interval.start[b]
-        V, momentum = central_momentum(bodies.mass[b], own, f, (w[0], w[1], w[2]))
+        V, momentum = central_momentum(bodies, own, f, (w[0], w[1], w[2]))
         for i in range(3):
             # bodies.c is A S/m
             start[3 + i] = bodies.Rdot[b, i] - dot(A[i], V)
@@ -201,8 +194,8 @@ def note_central_inertia(machine, f, h):
     its modes alone do to the velocity of that and to the angular momentum about it, as real numbers."""
     record = record_at(machine)
     bodies, own, interval = record.bodies, record.flexible, record.residual.interval
-    b, (first, n) = own.body[f], modes_of(own, f)
-    S, J, B, m = own.first[f], own.inertia[f], own.coupling[f], bodies.mass[b]
+    b, first = own.body[f], modes_of(own, f)[0]
+    S, J, m = own.first[f], own.inertia[f], bodies.mass[b]
     square = real(S[0]) ** 2 + real(S[1]) ** 2 + real(S[2]) ** 2
     for i in range(3):
         for j in range(3):
@@ -210,12 +203,7 @@ def note_central_inertia(machine, f, h):
             interval.inertia[b, i, j] = real(J[i, j]) + part
     none = 0.0 * own.pdot[first]
     V = origin_velocity(m, own, f, (none, none, none), own.pdot, first)
-    heave = cross(S, V)
-    own_momentum = (
-        heave[0] + dot_modes(B[3], own.pdot, first, n),
-        heave[1] + dot_modes(B[4], own.pdot, first, n),
-        heave[2] + dot_modes(B[5], own.pdot, first, n),
-    )
+    own_momentum = frame_momenta(bodies, own, f, V, (none, none, none), own.pdot, first)[1]
     A, w = bodies.A[b], bodies.omega[b]
     X, Y, Z = hat_column(A, w, h, 0), hat_column(A, w, h, 1), hat_column(A, w, h, 2)
     for i in range(3):

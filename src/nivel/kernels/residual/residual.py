@@ -11,11 +11,12 @@ only how accelerations of bodies come from v̇, and generalised forces from wren
 from __future__ import annotations
 
 from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.bodies.floating_dynamics import GATHER
 from nivel.kernels.bodies.rigid import load_weight
 from nivel.kernels.bodies.shared_mass import add_shared_inertia
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import apply_forces, call_hook
-from nivel.kernels.record.record import GIVEN_FRICTION, record_at
+from nivel.kernels.record.record import GIVEN_FRICTION, MODES, POINTS, record_at
 from nivel.native.function import shared, stage
 
 
@@ -105,15 +106,28 @@ def inertial_wrenches(machine):
 
 
 @shared
-def find_wrenches(machine, t):
-    """`residual.wrench` of all rigid bodies for the state read and `residual.acceleration`. Returns a status."""
+def fill_residual(machine, t, read, accelerate, write):
+    """The residual in coordinates of single bodies.
+
+    read(machine, t, y) : the state; accelerate(machine) : `residual.acceleration` of all bodies from `vdot`; write(machine) : all rows from
+    `residual.wrench`; compiled into this one. Returns a status, as the first does.
+    """
     record = record_at(machine)
+    status = read(machine, t, record.residual.y)
+    if status != OK:
+        return status
+    accelerate(machine)
     load_weight(record.bodies)
     status = apply_forces(machine, t, record.residual.y)
     if status == OK:
         status = load_multipliers(machine, t)
     if status == OK:
+        status = call_hook(machine, POINTS, 0, t)
+    if status == OK:
+        status = call_hook(machine, MODES, GATHER, t)
+    if status == OK:
         inertial_wrenches(machine)
+        write(machine)
     return status
 
 

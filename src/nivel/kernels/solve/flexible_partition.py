@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.algebra.spatial import cross, dot, multiply
-from nivel.kernels.bodies.floating_dynamics import flexible_row, forward, load_frame
-from nivel.kernels.bodies.floating_frame import dot_modes, modes_of
+from nivel.kernels.algebra.spatial import dot, multiply
+from nivel.kernels.bodies.floating_dynamics import flexible_row, forward, frame_momenta, load_frame
+from nivel.kernels.bodies.floating_frame import modal_momentum, modes_of
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf
 
@@ -95,21 +95,12 @@ def times_flexible_mass(machine, x, out):
     modes = 6 * bodies.mass.shape[0]
     for f in range(own.body.shape[0]):
         b = np.int64(own.body[f])
-        A, S, J, B, m = bodies.A[b], own.first[f], own.inertia[f], own.coupling[f], bodies.mass[b]
-        first, n = modes_of(own, f)
+        A, (first, n) = bodies.A[b], modes_of(own, f)
         R, w, p, to = x[6 * b : 6 * b + 3], x[6 * b + 3 : 6 * b + 6], x[modes:], out[6 * b : 6 * b + 6]
         v = dot(A[:, 0], R), dot(A[:, 1], R), dot(A[:, 2], R)
-        swing, heave = cross(w, S), cross(S, v)
-        force = (
-            m * v[0] + swing[0] + dot_modes(B[0], p, first, n),
-            m * v[1] + swing[1] + dot_modes(B[1], p, first, n),
-            m * v[2] + swing[2] + dot_modes(B[2], p, first, n),
-        )
+        force, moment = frame_momenta(bodies, own, f, v, w, p, first)
         multiply(A, force, to)
         for i in range(3):
-            to[3 + i] = heave[i] + dot(J[i], w) + dot_modes(B[3 + i], p, first, n)
+            to[3 + i] = moment[i]
         for j in range(n):
-            out[modes + first + j] = (
-                p[first + j] + B[0, j] * v[0] + B[1, j] * v[1] + B[2, j] * v[2]
-                + B[3, j] * w[0] + B[4, j] * w[1] + B[5, j] * w[2]
-            )  # fmt: skip
+            out[modes + first + j] = p[first + j] + modal_momentum(own.coupling[f], v, w, j)

@@ -12,7 +12,8 @@ from dataclasses import replace
 import numpy as np
 
 from nivel.errors import Fault, ModelError
-from nivel.kernels.record.record import NONE, Bodies, Friction, Record, Saddle
+from nivel.kernels.bodies.floating_dynamics import pass_flexible, solve_flexible
+from nivel.kernels.record.record import FACTORS, MODES, NONE, Bodies, Friction, Record, Saddle
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Mesh
 from nivel.machine.machine_record import MachineRecord
@@ -41,7 +42,11 @@ def arrange(
     """
     del settings
     bending = bending_bodies(machine)
-    return with_modes(absolute, y, rank, bending, carried_markers(absolute, machine, bending))
+    system, start = with_modes(absolute, y, rank, bending, carried_markers(absolute, machine, bending))
+    hooks = system.record.hooks
+    address = hooks.address.copy()
+    address[MODES], address[FACTORS] = pass_flexible.address, solve_flexible.address
+    return replace(system, record=system.record._replace(hooks=hooks._replace(address=address))), start
 
 
 def carried_markers(absolute: System, machine: MachineRecord, bending: Sequence[Bending]) -> dict[int, tuple[int, int]]:

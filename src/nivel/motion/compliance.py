@@ -13,7 +13,7 @@ from nivel.kernels.bodies.floating_frame import modes_of
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import MODAL, OUTWARD, record_at
 from nivel.kernels.solve.saddle import solve_rows, subtract_rows
-from nivel.kernels.tree.articulated import accelerate, hand_efforts, hand_wrench
+from nivel.kernels.tree.articulated import accelerate, hand_wrench, transmit
 from nivel.kernels.tree.flexible_whitening import accelerate_flexible, bend_by, hand_efforts_inwards
 from nivel.motion.tree_motion import WIDTH
 from nivel.native.function import leaf, shared, stage
@@ -74,7 +74,17 @@ def hold_rows(machine):
 @stage
 def respond(machine, response):
     """`response` := accelerations for `tree.wrench` alone. Returns a status."""
-    hand_efforts(machine)
+    record = record_at(machine)
+    tree, saddle, ground = record.tree, record.saddle, record.bodies.mass.shape[0]
+    count = tree.node.shape[0]
+    for m in range(count):
+        node = tree.node[count - 1 - m]
+        child, parent, first, last = node[0], node[1], np.int64(node[4]), np.int64(node[5])
+        wrench = tree.wrench[child]
+        for c in range(last - first):
+            saddle.z[last - 1 - c, 0] = transmit(tree, last - 1 - c, wrench)
+        if parent != ground:
+            hand_wrench(wrench, tree.arm[child], tree.wrench[parent])
     status = hold_rows(machine)
     accelerate(machine, response)
     return status

@@ -52,12 +52,6 @@ def factorise_flexible(machine, y):
 
 
 @stage
-def whiten(machine, y):
-    """z of all applied and inertia forces; y is not needed for it here."""
-    whiten_flexible_efforts(machine)
-
-
-@stage
 def apply_change(machine, y, what):
     """Apply the change found to the positions, or to the velocities."""
     accelerate_flexible(machine, record_at(machine).tree.change)
@@ -75,7 +69,7 @@ def evaluate(machine, t, y, ydot):
         read_flexible_tree,
         load_flexible_tree,
         factorise_flexible,
-        whiten,
+        whiten_flexible_efforts,
         accelerate_flexible,
     )
 

@@ -47,12 +47,6 @@ def factorise(machine, y):
 
 
 @stage
-def whiten(machine, y):
-    """z of all applied and inertia forces; y is not needed for it here."""
-    whiten_efforts(machine)
-
-
-@stage
 def apply_change(machine, y, what):
     """Apply the change found to the positions, or to the velocities."""
     accelerate(machine, record_at(machine).tree.change)
@@ -62,7 +56,7 @@ def apply_change(machine, y, what):
 @entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
     """ẏ. Leaves everything else in the record but what `nivel.kernels.tree.tree_outputs` adds for frames."""
-    return evaluate_tree(machine, t, y, ydot, read_state, load_tree, factorise, whiten, accelerate)
+    return evaluate_tree(machine, t, y, ydot, read_state, load_tree, factorise, whiten_efforts, accelerate)
 
 
 @entry(CORRECT)

@@ -15,7 +15,6 @@ from nivel.kernels.bodies.floating_frame import (
     add_bias,
     bend,
     dot_modes,
-    modal_momentum,
     modes_of,
     move_frames,
 )
@@ -346,18 +345,41 @@ def flexible_wrench(bodies, own, f, acceleration, wrench, effort):
     velocity_forces(bodies, own, f, own.velocity_force[f])
     alpha = dot(A[:, 0], x[0:3]), dot(A[:, 1], x[0:3]), dot(A[:, 2], x[0:3])
     a = dot(A[:, 0], x[3:6]), dot(A[:, 1], x[3:6]), dot(A[:, 2], x[3:6])
+    a0, a1, a2, b0, b1, b2 = a[0], a[1], a[2], alpha[0], alpha[1], alpha[2]
     for j in range(n):
-        effort[first + j] = own.pddot[first + j] - own.Q[first + j] + modal_momentum(B, a, alpha, j)
+        effort[first + j] = (
+            own.pddot[first + j] - own.Q[first + j]
+            + (a0 * B[0, j] + a1 * B[1, j] + a2 * B[2, j] + b0 * B[3, j] + b1 * B[4, j] + b2 * B[5, j])
+        )  # fmt: skip
     needed_by_frame(bodies, own, f, alpha, a, wrench[b])
 
 
 @stage
 def needed_by_frame(bodies, own, f, alpha, a, out):
     """(moment, force) that the frame of flexible body f needs for ᾱ and R̈ in axes of the body, less all applied and velocity forces."""
-    A, F, q = bodies.A[own.body[f]], bodies.wrench[own.body[f]], own.velocity_force[f]
-    p, h = frame_momenta(bodies, own, f, a, alpha, own.pddot, modes_of(own, f)[0])
-    multiply(A, (h[0] - q[3], h[1] - q[4], h[2] - q[5]), out[0:3])
-    multiply(A, (p[0] - q[0], p[1] - q[1], p[2] - q[2]), out[3:6])
+    b = own.body[f]
+    first, n = modes_of(own, f)
+    A, S, J, B, F, q = (
+        bodies.A[b],
+        own.first[f],
+        own.inertia[f],
+        own.coupling[f],
+        bodies.wrench[b],
+        own.velocity_force[f],
+    )
+    swing, heave, m = cross(alpha, S), cross(S, a), bodies.mass[b]
+    force = (
+        m * a[0] + swing[0] - q[0] + dot_modes(B[0], own.pddot, first, n),
+        m * a[1] + swing[1] - q[1] + dot_modes(B[1], own.pddot, first, n),
+        m * a[2] + swing[2] - q[2] + dot_modes(B[2], own.pddot, first, n),
+    )
+    moment = (
+        heave[0] + dot(J[0], alpha) - q[3] + dot_modes(B[3], own.pddot, first, n),
+        heave[1] + dot(J[1], alpha) - q[4] + dot_modes(B[4], own.pddot, first, n),
+        heave[2] + dot(J[2], alpha) - q[5] + dot_modes(B[5], own.pddot, first, n),
+    )
+    multiply(A, moment, out[0:3])
+    multiply(A, force, out[3:6])
     for i in range(3):
         out[i] -= F[3 + i]
         out[3 + i] -= F[i]
@@ -383,7 +405,8 @@ def flexible_kinetic_energy(bodies, own, f):
     total += 0.5 * (w[0] * dot(J[0], w) + w[1] * dot(J[1], w) + w[2] * dot(J[2], w))
     for j in range(n):
         rate = own.pdot[first + j]
-        total += rate * (modal_momentum(B, v, w, j) + 0.5 * rate)
+        along = B[0, j] * v[0] + B[1, j] * v[1] + B[2, j] * v[2]
+        total += rate * (along + B[3, j] * w[0] + B[4, j] * w[1] + B[5, j] * w[2] + 0.5 * rate)
     return total
 
 

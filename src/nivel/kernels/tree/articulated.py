@@ -217,19 +217,13 @@ def applied(bodies, tree, b, out):
 
 @stage
 def whiten_efforts(machine):
-    """z of all applied and inertia forces."""
+    """z of all applied and inertia forces, from the outermost node inwards."""
     record = record_at(machine)
-    for b in range(record.bodies.mass.shape[0]):
-        applied(record.bodies, record.tree, b, record.tree.wrench[b])
-    hand_efforts(machine)
-
-
-@stage
-def hand_efforts(machine):
-    """z of the wrenches in `tree.wrench`, from the outermost node inwards."""
-    record = record_at(machine)
-    tree, z = record.tree, record.saddle.z
-    ground, count = record.bodies.mass.shape[0], tree.node.shape[0]
+    bodies, tree, z = record.bodies, record.tree, record.saddle.z
+    ground = bodies.mass.shape[0]
+    for b in range(ground):
+        applied(bodies, tree, b, tree.wrench[b])
+    count = tree.node.shape[0]
     for m in range(count):
         node = tree.node[count - 1 - m]
         child, parent, first, last = node[0], node[1], np.int64(node[4]), np.int64(node[5])

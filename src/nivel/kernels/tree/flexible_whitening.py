@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.algebra.spatial import dot
-from nivel.kernels.bodies.floating_dynamics import needed_by_frame, velocity_forces
-from nivel.kernels.bodies.floating_frame import modal_momentum, modes_of
+from nivel.kernels.algebra.spatial import cross, dot, multiply
+from nivel.kernels.bodies.floating_dynamics import velocity_forces
+from nivel.kernels.bodies.floating_frame import modes_of
 from nivel.kernels.record.record import MODAL, OUTWARD, record_at
 from nivel.kernels.tree.articulated import (
     accelerate_column,
@@ -55,16 +55,32 @@ def applied_on_modes(bodies, tree, own, modal, f):
     accelerations that others are counted from."""
     b = own.body[f]
     first, n = modes_of(own, f)
-    A, x, y, out = bodies.A[b], tree.Rddot0[b], tree.alpha0[b], tree.wrench[b]
-    velocity_forces(bodies, own, f, own.velocity_force[f])
+    A, S, J, B, F, q, out = (
+        bodies.A[b],
+        own.first[f],
+        own.inertia[f],
+        own.coupling[f],
+        bodies.wrench[b],
+        own.velocity_force[f],
+        tree.wrench[b],
+    )
+    velocity_forces(bodies, own, f, q)
+    x, y = tree.Rddot0[b], tree.alpha0[b]
     a = dot(A[:, 0], x), dot(A[:, 1], x), dot(A[:, 2], x)
     alpha = dot(A[:, 0], y), dot(A[:, 1], y), dot(A[:, 2], y)
+    swing, heave, m = cross(alpha, S), cross(S, a), bodies.mass[b]
+    force = q[0] - m * a[0] - swing[0], q[1] - m * a[1] - swing[1], q[2] - m * a[2] - swing[2]
+    moment = q[3] - heave[0] - dot(J[0], alpha), q[4] - heave[1] - dot(J[1], alpha), q[5] - heave[2] - dot(J[2], alpha)
+    multiply(A, moment, out[0:3])
+    multiply(A, force, out[3:6])
+    for i in range(3):
+        out[i] += F[3 + i]
+        out[3 + i] += F[i]
+    a0, a1, a2, b0, b1, b2 = a[0], a[1], a[2], alpha[0], alpha[1], alpha[2]
     for j in range(n):
-        own.pddot[first + j] = 0.0
-        modal.effort[first + j] = own.Q[first + j] - modal_momentum(own.coupling[f], a, alpha, j)
-    needed_by_frame(bodies, own, f, alpha, a, out)
-    for i in range(6):
-        out[i] = -out[i]
+        modal.effort[first + j] = own.Q[first + j] - (
+            a0 * B[0, j] + a1 * B[1, j] + a2 * B[2, j] + b0 * B[3, j] + b1 * B[4, j] + b2 * B[5, j]
+        )
 
 
 @stage

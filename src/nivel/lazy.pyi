@@ -92,6 +92,9 @@ import nivel.cli
 import nivel.cli.live
 import nivel.cli.progress
 import nivel.elements
+import nivel.elements.beams
+import nivel.elements.beams.exact
+import nivel.elements.beams.segments
 import nivel.elements.circuits
 import nivel.elements.circuits.actuators
 import nivel.elements.circuits.chambers
@@ -205,9 +208,6 @@ import nivel.results.study_statistics
 import nivel.results.trust
 import nivel.studies
 import nivel.system
-import nivel.system.beams
-import nivel.elements.beams.exact
-import nivel.elements.beams.segments
 import nivel.system.circuit_elements
 import nivel.system.circuit_tangent
 import nivel.system.elimination

@@ -1,4 +1,4 @@
-"""Flexible bodies over a whole step, so that energy and momenta are kept; see `nivel.motion.floating_energy_momentum_residual`.
+"""Flexible bodies over a whole step, so that energy and momenta are kept; see `nivel.motion.energy_momentum_residual`.
 
 Velocities are those of the centre of mass (ċ), ω̄ and ṗ. About the centre of mass the kinetic energy is ½ (ω̄, ṗ)ᵀ M(p) (ω̄, ṗ); its momenta
 (Π̄, π) = M (ω̄, ṗ) are found with the velocity V = -(ω̄ × S + B ṗ)/m of the frame's origin, in axes of the body, for which the linear

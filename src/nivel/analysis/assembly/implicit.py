@@ -14,25 +14,10 @@ from nivel.elements.beams.exact import hold, nodes_of_elements
 from nivel.elements.beams.exact_slopes import tangent
 from nivel.kernels.core.arrays import dual_twin
 from nivel.kernels.core.block import Handle
+from nivel.kernels.record import record as kernels
 from nivel.kernels.record.hook import FAMILIES, Family
 from nivel.kernels.record.implicit_record import Newton, Residual
-from nivel.kernels.record.record import (
-    DEPENDENT,
-    GIVEN_FRICTION,
-    HOOKS,
-    MEASURE,
-    MODES,
-    MOMENTARY,
-    NONE,
-    PASS,
-    POINTS,
-    RAIL,
-    RESIDUAL,
-    SLIDERS,
-    TANGENT,
-    Hooks,
-    Record,
-)
+from nivel.kernels.record.record import Hooks, Record
 from nivel.kernels.residual import friction_residual
 from nivel.kernels.residual import tangent_entries as entries
 from nivel.kernels.residual.element_crossing import pass_nodes
@@ -180,10 +165,10 @@ def _with_rows(
 def _parts(record: Record, coordinates: str, kept: Index) -> NDArray[np.uint32]:
     """Parts of the rows `kept`, with their numbers among these: `Residual.part`."""
     part = parts_of(record, coordinates == "relative")
-    renumbered = np.full(len(record.saddle.row), NONE, dtype=np.uint32)
+    renumbered = np.full(len(record.saddle.row), kernels.NONE, dtype=np.uint32)
     renumbered[kept] = np.arange(len(kept))
     part[:, 0] = renumbered[part[:, 0]]
-    return np.ascontiguousarray(part[part[:, 0] != NONE])
+    return np.ascontiguousarray(part[part[:, 0] != kernels.NONE])
 
 
 def _residual(
@@ -245,20 +230,20 @@ def _hooks(system: System, path: PathFacts, wanted: ResidualOptions, *, by_hand:
     record = system.record
     address = record.hooks.address.copy()
     family, instant = _families(path, wanted)
-    address[RESIDUAL], address[MOMENTARY] = family.address, instant.address
+    address[kernels.RESIDUAL], address[kernels.MOMENTARY] = family.address, instant.address
     if by_hand:
-        address[TANGENT] = tangent.address
+        address[kernels.TANGENT] = tangent.address
     if len(record.modal.carrier):
-        address[MODES] = pass_modes.address
+        address[kernels.MODES] = pass_modes.address
     elif wanted.whole and len(record.flexible.body):
-        address[MODES] = import_module(wanted.whole).pass_flexible.address
+        address[kernels.MODES] = import_module(wanted.whole).pass_flexible.address
     if len(record.tree.slider):
-        address[PASS] = pass_nodes.address
-        address[SLIDERS] = pass_sliders.address
+        address[kernels.PASS] = pass_nodes.address
+        address[kernels.SLIDERS] = pass_sliders.address
     if wanted.accelerations and path.dependent:
-        address[DEPENDENT] = import_module(path.dependent).depend.address
+        address[kernels.DEPENDENT] = import_module(path.dependent).depend.address
     if len(system.frictions):
-        address[GIVEN_FRICTION] = friction_residual.apply.address
+        address[kernels.GIVEN_FRICTION] = friction_residual.apply.address
     return record.hooks._replace(address=address)
 
 
@@ -279,7 +264,15 @@ def _twin(record: Record, *, held: bool) -> Handle:
     address = np.zeros_like(record.hooks.address)
     # behind the others are motions of joints, and then what adds slopes of circuits, which are real numbers
     end = len(address) - len(record.circuit.tangent.family)
-    for hook in (MEASURE, RAIL, GIVEN_FRICTION, POINTS, MODES, SLIDERS, *range(HOOKS, end)):
+    for hook in (
+        kernels.MEASURE,
+        kernels.RAIL,
+        kernels.GIVEN_FRICTION,
+        kernels.POINTS,
+        kernels.MODES,
+        kernels.SLIDERS,
+        *range(kernels.HOOKS, end),
+    ):
         address[hook] = _on_duals(record.hooks.address[hook])
     families = np.array([_on_duals(each) for each in record.elements.address], dtype=np.uint64)
     if held:

@@ -14,23 +14,7 @@ import numpy as np
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.linearise.reduction import Reduction, velocity_names
-from nivel.kernels.elements.friction import (
-    ARM,
-    COORDINATE,
-    COULOMB,
-    KINETIC,
-    MODEL,
-    ONE_WAY,
-    OUTPUT,
-    ROW,
-    STATIC,
-    STICTION,
-    STRIBECK,
-    THIRD,
-    TRANSITION,
-    VISCOUS,
-    WAY,
-)
+from nivel.kernels.elements import friction as columns
 from nivel.kernels.record.record import NONE
 from nivel.lazy import dataclass
 from nivel.system.system import Array
@@ -160,23 +144,34 @@ def let_slide(motion: MotionEquations, t: float, y: Array) -> frozenset[str]:
     if not len(friction.columns) or not motion.holds(t, y):
         return out
     for k, (index, n) in enumerate(zip(friction.columns.tolist(), friction.number, strict=True)):
-        if index[MODEL] != STICTION or index[ROW] != NONE:
+        if index[columns.MODEL] != columns.STICTION or index[columns.ROW] != NONE:
             continue
-        rate, outputs = record.coordinates.rate[index[COORDINATE]], record.outputs.value[index[OUTPUT] :]
-        dry = friction.force[k] + n[VISCOUS] * rate
-        if index[WAY] == ONE_WAY:
+        rate, outputs = (
+            record.coordinates.rate[index[columns.COORDINATE]],
+            record.outputs.value[index[columns.OUTPUT] :],
+        )
+        dry = friction.force[k] + n[columns.VISCOUS] * rate
+        if index[columns.WAY] == columns.ONE_WAY:
             if not rate > 0.0 or dry != 0.0:
                 continue
-            n[KINETIC] = n[STATIC] = 0.0  # it runs ahead
-        elif not -dry * np.sign(rate) >= (1.0 - EQUAL) * _sliding(n, rate * n[ARM]) * outputs[THIRD] * n[ARM]:
+            n[columns.KINETIC] = n[columns.STATIC] = 0.0  # it runs ahead
+        elif (
+            not -dry * np.sign(rate)
+            >= (1.0 - EQUAL) * _sliding(n, rate * n[columns.ARM]) * outputs[columns.THIRD] * n[columns.ARM]
+        ):
             continue
-        friction.columns[k, MODEL], n[TRANSITION] = COULOMB, abs(rate) * n[ARM] / SATURATED
+        friction.columns[k, columns.MODEL], n[columns.TRANSITION] = (
+            columns.COULOMB,
+            abs(rate) * n[columns.ARM] / SATURATED,
+        )
         out |= {system.frictions[k]}
     return out
 
 
 def _sliding(n: Array, speed: float) -> float:
     """Coefficient of friction of surfaces that slide with a speed."""
-    if n[STATIC] == n[KINETIC] or n[STRIBECK] == 0.0:
-        return float(n[KINETIC])
-    return float(n[KINETIC] + (n[STATIC] - n[KINETIC]) * np.exp(-((speed / n[STRIBECK]) ** 2)))
+    if n[columns.STATIC] == n[columns.KINETIC] or n[columns.STRIBECK] == 0.0:
+        return float(n[columns.KINETIC])
+    return float(
+        n[columns.KINETIC] + (n[columns.STATIC] - n[columns.KINETIC]) * np.exp(-((speed / n[columns.STRIBECK]) ** 2))
+    )

@@ -25,26 +25,9 @@ from nivel.analysis.run.history import go_on_with, start_history
 from nivel.analysis.run.narrow_features import LONGEST, NarrowFeatures, narrow_functions
 from nivel.analysis.run.probes import Probes
 from nivel.integrate.explicit.dormand_prince import STIFF
+from nivel.integrate.loop import run as of_run
 from nivel.integrate.loop.loop import advance
-from nivel.integrate.loop.run import (
-    ACCEPTED,
-    BUDGET,
-    CONSERVE,
-    DONE_STEPS,
-    EVALUATIONS,
-    EVENTS,
-    FACTORISATIONS,
-    FRAMES,
-    ITERATIONS,
-    OPEN_LIMIT,
-    REJECTED,
-    SHOWN,
-    STEP,
-    STOPPED,
-    TIME,
-    UNCONSERVED,
-    Run,
-)
+from nivel.integrate.loop.run import Run
 from nivel.integrate.loop.sink import Sink
 from nivel.integrate.stabilise import STABILISATIONS, Stabilisation
 from nivel.judge.during.failure import Status, Stop, failure
@@ -52,20 +35,6 @@ from nivel.judge.during.growth import GROWN, UNBOUND, Crawl, fastest_beyond, hel
 from nivel.judge.during.lockup import Jam, branching_advice, branching_joints, can_be_asked, find_jam
 from nivel.judge.during.stop import NO_NUMBER
 from nivel.kernels.core.block import Handle
-from nivel.kernels.core.status import (
-    BUDGET_SPENT,
-    BUFFER_FULL,
-    CONTRADICTION,
-    DONE,
-    MULTIPLIERS_NOT_FOUND,
-    NO_VOLUME,
-    NOT_CLOSED,
-    NOT_CONVERGED,
-    NOT_FINITE,
-    OPEN,
-    SINGULAR,
-    STEP_TOO_SMALL,
-)
 from nivel.kernels.output.observe import observe
 from nivel.lazy import dataclass, field, nivel, replace
 from nivel.native.entry import Entry
@@ -75,12 +44,20 @@ from nivel.system.system import Array, System
 # A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at. Steps of one, at most.
 CHUNK = 0.05
 MOST_STEPS = 1_000_000_000
-GOES_ON = (BUDGET_SPENT, BUFFER_FULL)
+GOES_ON = (Status.BUDGET_SPENT, Status.BUFFER_FULL)
 # What a method may end with near a position that its machine cannot pass.
-BEFORE_A_JAM = (SINGULAR, NOT_CLOSED, OPEN, NOT_CONVERGED, NOT_FINITE, STEP_TOO_SMALL, MULTIPLIERS_NOT_FOUND)
+BEFORE_A_JAM = (
+    Status.SINGULAR,
+    Status.NOT_CLOSED,
+    Status.OPEN,
+    Status.NOT_CONVERGED,
+    Status.NOT_FINITE,
+    Status.STEP_TOO_SMALL,
+    Status.MULTIPLIERS_NOT_FOUND,
+)
 _ONE_AT_A_TIME = threading.Lock()
 # What a run ends with whose steps shrink.
-SHRUNK = (Status.OUT_OF_REACH, Status.CRAWLS, STEP_TOO_SMALL, NOT_CONVERGED)
+SHRUNK = (Status.OUT_OF_REACH, Status.CRAWLS, Status.STEP_TOO_SMALL, Status.NOT_CONVERGED)
 
 
 @dataclass
@@ -103,7 +80,7 @@ class RunOutcome:
     failure: tuple[str, str, float] | None = None
     pace: Array | None = None
     last: tuple[float, Array] | None = None
-    status: int = DONE
+    status: int = Status.DONE
     ends: Array | None = None
     impulses: dict[str, float] = field(default_factory=dict)
     went_on: tuple[str, float] | None = None
@@ -156,7 +133,7 @@ def march(
     probes = Probes.of(prepared.motion, run, settings.duration) if sinks else None
     sinks = sinks if probes is None else (probes, *sinks)
     wall = clock_of_python.perf_counter()
-    status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
+    status, loop_seconds, jam = Status.BUDGET_SPENT, 0.0, None
     crawl = None
     if settings.steps == 0:
         crawl = Crawl(settings.duration, bool(prepared.jumping), partial(_branches, prepared), system)
@@ -168,28 +145,31 @@ def march(
         if status == STIFF:
             prepared, loop = gone_on(prepared, settings, loop, listener)
             settings, run = replace(settings, integrator=prepared.integrator.name), loop.history.record
-            finished.went_on, status = (settings.integrator, float(run.clock[TIME])), BUDGET_SPENT
+            finished.went_on, status = (settings.integrator, float(run.clock[of_run.TIME])), Status.BUDGET_SPENT
             if narrow is not None:
                 narrow.follow(prepared)
             if probes is not None:
                 probes.motion = prepared.motion
         if status in BEFORE_A_JAM:
             jam = jam_of(prepared, settings, run)
-        if status == OPEN and jam is None and can_be_asked(prepared):
+        if status == Status.OPEN and jam is None and can_be_asked(prepared):
             accept_open(prepared.motion, run)
-            status = BUDGET_SPENT
-    if run.counter[STOPPED]:
-        finished.stopped_by = system.events[run.counter[STOPPED] - 1]
-    if status not in (*GOES_ON, DONE):
+            status = Status.BUDGET_SPENT
+    if run.counter[of_run.STOPPED]:
+        finished.stopped_by = system.events[run.counter[of_run.STOPPED] - 1]
+    if status not in (*GOES_ON, Status.DONE):
         finished.outcome = "failed"
         finished.failure = failure_of(prepared, settings, run, status, jam)
-        if status != CONTRADICTION:
+        if status != Status.CONTRADICTION:
             keep_last(prepared.motion, run, sinks)
     if probes is not None:
         finished.between_frames = probes.close()
     failed = finished.outcome == "failed"
     finished.pace, finished.status, finished.work = run.pace, int(status), work(run)
-    finished.last = float(run.clock[ACCEPTED if failed else TIME]), (run.previous if failed else run.y).copy()
+    finished.last = (
+        float(run.clock[of_run.ACCEPTED if failed else of_run.TIME]),
+        (run.previous if failed else run.y).copy(),
+    )
     if narrow is not None:
         finished.ends, finished.impulses = narrow.ends, narrow.impulses
     finished.timing = {
@@ -207,7 +187,7 @@ def start_loop(prepared: Prepared, settings: RunSettings, *, at_switches: bool =
     kernels, facts = prepared.motion.kernels, prepared.integrator
     correct = import_module(prepared.path.correction).correct if stabilisation.corrects else kernels.normalise_state
     run = start_history(prepared, settings, facts, _kept_ends(prepared, settings), at_switches)
-    run.counter[CONSERVE] = int(stabilisation.conserves)
+    run.counter[of_run.CONSERVE] = int(stabilisation.conserves)
     step = facts.step
     return Loop(kernels.evaluate, correct, step, prepared.motion.handle, Handle(run))
 
@@ -268,7 +248,7 @@ def march_in_chunks(
     probes: Probes | None = None,
 ) -> tuple[int, float]:
     """The last status, and the time [s] spent in the compiled loop. Events, and an interruption, are noted in `finished`."""
-    budget, loop_seconds, status = chunk_steps or 1, 0.0, BUDGET_SPENT
+    budget, loop_seconds, status = chunk_steps or 1, 0.0, Status.BUDGET_SPENT
     since = 0.0  # [s] in the loop since frames were given: a block of few frames costs sinks what one of many does
     with interruptible() as interrupted:
         while status in GOES_ON:
@@ -277,14 +257,14 @@ def march_in_chunks(
                 break
             if probes is not None and narrow is None:
                 probes.before(run)
-            run.counter[BUDGET] = budget if narrow is None else narrow.before(run, budget)
+            run.counter[of_run.BUDGET] = budget if narrow is None else narrow.before(run, budget)
             begin = clock_of_python.thread_time()
             status = advance()
             spent = clock_of_python.thread_time() - begin
             loop_seconds += spent
             since += spent
             cut = probes is not None and probes.is_due(run)
-            if chunk_steps is None and status == BUDGET_SPENT and not cut:
+            if chunk_steps is None and status == Status.BUDGET_SPENT and not cut:
                 budget = _next_budget(budget, spent)
             if probes is not None and narrow is None:
                 probes.after(run)
@@ -292,18 +272,20 @@ def march_in_chunks(
                 narrow.hold(run)
                 if not narrow.is_whole(run, goes_on=status in GOES_ON) and not interrupted():
                     continue
-                if not interrupted() and not narrow.stands(run, goes_on=status in (BUDGET_SPENT, DONE, STIFF)):
-                    status = BUDGET_SPENT
+                if not interrupted() and not narrow.stands(
+                    run, goes_on=status in (Status.BUDGET_SPENT, Status.DONE, STIFF)
+                ):
+                    status = Status.BUDGET_SPENT
                     continue
                 give_held(narrow, run, system, sinks, finished, goes_on=status in (*GOES_ON, STIFF))
-            if since >= CHUNK or status != BUDGET_SPENT or narrow is not None or chunk_steps is not None:
+            if since >= CHUNK or status != Status.BUDGET_SPENT or narrow is not None or chunk_steps is not None:
                 give_frames(run, sinks)
                 since = 0.0
-            if probes is not None and status == BUDGET_SPENT:
+            if probes is not None and status == Status.BUDGET_SPENT:
                 probes.look(run)
             finished.events += taken_events(run, system.events)
             if progress is not None:
-                progress(float(run.clock[TIME]))
+                progress(float(run.clock[of_run.TIME]))
             if pacing is not None:
                 pacing.after(run)
             if crawl is not None and status in GOES_ON:
@@ -326,29 +308,29 @@ def _next_budget(budget: int, spent: float) -> int:
 
 def jam_of(prepared: Prepared, settings: RunSettings, run: Run) -> Jam | None:
     """The jam in or beside the step after the last accepted state."""
-    time = float(run.clock[ACCEPTED])
-    step = max(float(run.clock[STEP]), float(run.clock[TIME]) - time)
+    time = float(run.clock[of_run.ACCEPTED])
+    step = max(float(run.clock[of_run.STEP]), float(run.clock[of_run.TIME]) - time)
     return find_jam(prepared, time, step, settings.step, settings.duration, run.previous)
 
 
 def _branches(prepared: Prepared, run: Run) -> bool:
     """Whether the motion branches beside the last accepted state."""
-    return bool(branching_joints(prepared, float(run.clock[ACCEPTED]), run.previous))
+    return bool(branching_joints(prepared, float(run.clock[of_run.ACCEPTED]), run.previous))
 
 
 def accept_open(motion: MotionEquations, run: Run) -> None:
     """Let the run go on with joints that are open, as they can be closed: they have drifted. Looked at again when that has doubled."""
-    motion.evaluate(float(run.clock[TIME]), run.y)
+    motion.evaluate(float(run.clock[of_run.TIME]), run.y)
     constraints = motion.system.record.constraints
     share = float(np.max(np.abs(constraints.C) / constraints.scale))
-    run.clock[OPEN_LIMIT] = 2.0 * max(share, run.clock[OPEN_LIMIT]) if np.isfinite(share) else np.inf
+    run.clock[of_run.OPEN_LIMIT] = 2.0 * max(share, run.clock[of_run.OPEN_LIMIT]) if np.isfinite(share) else np.inf
 
 
 def failure_of(
     prepared: Prepared, settings: RunSettings, run: Run, status: int, jam: Jam | None
 ) -> tuple[str, str, float]:
     """(message, advice, time [s]) of a run that failed."""
-    facts, time = prepared.integrator, float(run.clock[ACCEPTED])
+    facts, time = prepared.integrator, float(run.clock[of_run.ACCEPTED])
     if jam is not None:
         return f"stopped at t = {time:.6g} s: {jam.message}", jam.advice, time
     explicit = settings.steps > 0 and facts.kind == "explicit"
@@ -356,14 +338,14 @@ def failure_of(
         prepared.motion,
         status,
         time,
-        float(run.clock[STEP]),
+        float(run.clock[of_run.STEP]),
         run.previous,
         chosen_by=settings.integrator if settings.steps == 0 else "",
         beams=prepared.beams if explicit else (),
         jumping=_jumping(prepared, run),
     )
     message, advice = failure(stop)
-    if status == NO_VOLUME and prepared.machine is not None:  # for what `nivel check` says of the circuit
+    if status == Status.NO_VOLUME and prepared.machine is not None:  # for what `nivel check` says of the circuit
         said = [
             str(remark.fault).removeprefix("hydraulics.")
             for remark in nivel.judge.before.circuits.circuit_remarks(prepared.machine.hydraulics)
@@ -385,7 +367,7 @@ def _jumping(prepared: Prepared, run: Run) -> tuple[str, ...]:
 def _with_fastest(prepared: Prepared, settings: RunSettings, run: Run, message: str, advice: str) -> tuple[str, str]:
     """Message and advice, led by the part that is too fast for the step where there is one. Where it is so from the start, and the state
     has grown without bound, a function that has no value in the end only shows that."""
-    time = float(run.clock[ACCEPTED])
+    time = float(run.clock[of_run.ACCEPTED])
     found = fastest_beyond(prepared, settings.integrator, settings.step, time, run.previous)
     if found is None:
         return message, advice
@@ -409,12 +391,12 @@ def _no_longer_than(step: float, advice: str) -> str:
 def counts_of(system: System, run: Run) -> dict[str, float]:
     """What the run did how often; of partitions, how often independent coordinates were chosen anew."""
     return {
-        "steps": int(run.counter[DONE_STEPS]),
-        "evaluations": int(run.counter[EVALUATIONS]),
-        "iterations": int(run.counter[ITERATIONS]) + int(system.record.control.iterations[1]),
-        "factorisations": int(run.counter[FACTORISATIONS]),
-        "rejected": int(run.counter[REJECTED]),
-        "unconserved": int(run.counter[UNCONSERVED]),
+        "steps": int(run.counter[of_run.DONE_STEPS]),
+        "evaluations": int(run.counter[of_run.EVALUATIONS]),
+        "iterations": int(run.counter[of_run.ITERATIONS]) + int(system.record.control.iterations[1]),
+        "factorisations": int(run.counter[of_run.FACTORISATIONS]),
+        "rejected": int(run.counter[of_run.REJECTED]),
+        "unconserved": int(run.counter[of_run.UNCONSERVED]),
         "guarded": int(system.record.circuit.guard[0]),
         "pressure_difference": float(system.record.circuit.guard[1]),
         "partitions": max(0, int(system.record.partition.choices.sum()) - 1),
@@ -423,8 +405,8 @@ def counts_of(system: System, run: Run) -> dict[str, float]:
 
 def keep_last(motion: MotionEquations, run: Run, sinks: Sequence[Sink]) -> None:
     """Give the last accepted state before a failure, where it lies after the last frame and its accelerations are numbers."""
-    t, feedback = float(run.clock[ACCEPTED]), motion.system.record.control.stabilise[:2]
-    if not t > run.clock[SHOWN] or not np.isfinite(run.previous).all():
+    t, feedback = float(run.clock[of_run.ACCEPTED]), motion.system.record.control.stabilise[:2]
+    if not t > run.clock[of_run.SHOWN] or not np.isfinite(run.previous).all():
         return
     kept = feedback.copy()
     # as in all frames, accelerations are those without Baumgarte's feedback
@@ -440,11 +422,11 @@ def keep_last(motion: MotionEquations, run: Run, sinks: Sequence[Sink]) -> None:
 
 
 def give_frames(run: Run, sinks: Sequence[Sink]) -> None:
-    filled = int(run.counter[FRAMES])
+    filled = int(run.counter[of_run.FRAMES])
     if filled:
         for sink in sinks:
             sink.take(run.frames[:filled])
-        run.counter[FRAMES] = 0
+        run.counter[of_run.FRAMES] = 0
 
 
 def give_held(
@@ -460,8 +442,8 @@ def give_held(
 
 def taken_events(run: Run, names: tuple[str, ...]) -> list[Occurrence]:
     """Events of the buffer, which is empty then."""
-    filled = int(run.counter[EVENTS])
-    run.counter[EVENTS] = 0
+    filled = int(run.counter[of_run.EVENTS])
+    run.counter[of_run.EVENTS] = 0
     return _occurrences(run.events[:filled], names)
 
 

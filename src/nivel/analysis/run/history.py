@@ -16,38 +16,8 @@ from nivel.elements.contacts import height_way, heights
 from nivel.elements.contacts.heights import rows_over_heights
 from nivel.integrate.explicit.dormand_prince import COUNTS as COUNTS_STIFF
 from nivel.integrate.facts import IntegratorFacts
-from nivel.integrate.loop.run import (
-    ALL_STEPS,
-    ALLOWED,
-    CLOCKS,
-    CORRECTOR_TOLERANCE,
-    COUNTS,
-    DENSE_ROWS,
-    END,
-    EVALUATED,
-    EVERY,
-    HORIZON,
-    INTERVAL,
-    LARGEST,
-    LAST_FRAME,
-    LEAST,
-    MOST_ITERATIONS,
-    NEWTON,
-    OPEN_LIMIT,
-    ORDER,
-    PACES,
-    PARTS,
-    RESTART,
-    SHOWN,
-    STEP,
-    STEP_TICKS,
-    SWITCHED,
-    TICK_RATE,
-    TIME,
-    TOLERANCE,
-    VALUE_ROWS,
-    Run,
-)
+from nivel.integrate.loop import run as of_run
+from nivel.integrate.loop.run import Run
 from nivel.integrate.stabilise import STABILISATIONS
 from nivel.judge.after.checks.friction import STILL
 from nivel.judge.before.refusals import WHOLE
@@ -91,7 +61,7 @@ def start_history(
     system, y = prepared.motion.system, prepared.start.copy()
     width, count = system.layout.width, _counters(settings, facts)
     rows = max(2, min(4096, BUFFER_BYTES // (8 * width)))
-    newton = len(y) if count[NEWTON] and not facts.residual else 0
+    newton = len(y) if count[of_run.NEWTON] and not facts.residual else 0
     numbers = np.zeros(facts.numbers)
     numbers[: len(settings.constants)] = settings.constants
     if prepared.methods is not None and prepared.methods.stiff is not None:
@@ -102,10 +72,10 @@ def start_history(
     refer_energies(prepared, y)
     at_switches = at_switches and settings.steps > 0
     values = _watch(system, chosen=settings.steps == 0 or at_switches)
-    count[SWITCHED] = values > len(system.record.watched.event)
+    count[of_run.SWITCHED] = values > len(system.record.watched.event)
     clock, ending = _clock(prepared, settings), prepared.corners
     if at_switches:
-        clock[TOLERANCE] = AT_SWITCHES
+        clock[of_run.TOLERANCE] = AT_SWITCHES
         if prepared.machine is not None and not facts.knows_corners:
             ending = corners(prepared.machine, with_values=True)
     return Run(
@@ -125,9 +95,9 @@ def start_history(
         pivot=np.zeros(newton, dtype=np.uint32),
         plain=system.map.plain,
         turns=system.map.turns,
-        dense=np.zeros((DENSE_ROWS, len(y))),
+        dense=np.zeros((of_run.DENSE_ROWS, len(y))),
         frames=np.zeros((rows, width)),
-        event_values=np.zeros((VALUE_ROWS, values)),
+        event_values=np.zeros((of_run.VALUE_ROWS, values)),
         samples=np.zeros(len(system.record.sampled.state), dtype=np.int64),
         corners=np.array(ending, dtype=float),
         pace=_pace(prepared, settings),
@@ -139,26 +109,30 @@ def start_history(
 
 def go_on_with(prepared: Prepared, settings: RunSettings, run: Run) -> Run:
     """History of a run that goes on from its accepted state with the integrator of `prepared`: all that it remembers but steps."""
-    facts, motion, t = prepared.integrator, prepared.motion, float(run.clock[TIME])
+    facts, motion, t = prepared.integrator, prepared.motion, float(run.clock[of_run.TIME])
     newton = motion.system.record.newton
     if len(newton.level):
         newton.level[0] = constraint_index(settings.formulation, settings.stabilisation, prepared.path)
-    run.counter[ORDER], run.counter[RESTART], run.counter[EVALUATED] = facts.order, 1, 1
+    run.counter[of_run.ORDER], run.counter[of_run.RESTART], run.counter[of_run.EVALUATED] = facts.order, 1, 1
     run.rate[:] = motion.evaluate(t, run.y)[1]
     numbers, stages = np.zeros(facts.numbers), np.zeros((facts.stages, len(run.y)))
     return run._replace(stages=stages, numbers=numbers, corners=np.zeros(0))
 
 
 def _clock(prepared: Prepared, settings: RunSettings) -> Array:
-    clock = np.zeros(CLOCKS)
+    clock = np.zeros(of_run.CLOCKS)
     step = _step_ratio(prepared.motion.system.record.sampled, settings.step)
-    clock[STEP_TICKS], clock[TICK_RATE] = step.numerator, step.denominator
-    clock[STEP], clock[END], clock[INTERVAL] = settings.step, settings.duration, settings.output_interval
-    clock[TOLERANCE], clock[LARGEST] = settings.tolerance or 0.0, settings.largest_step
-    clock[SHOWN], clock[HORIZON] = -np.inf, np.inf
-    clock[OPEN_LIMIT] = _open_limit(prepared, settings)
+    clock[of_run.STEP_TICKS], clock[of_run.TICK_RATE] = step.numerator, step.denominator
+    clock[of_run.STEP], clock[of_run.END], clock[of_run.INTERVAL] = (
+        settings.step,
+        settings.duration,
+        settings.output_interval,
+    )
+    clock[of_run.TOLERANCE], clock[of_run.LARGEST] = settings.tolerance or 0.0, settings.largest_step
+    clock[of_run.SHOWN], clock[of_run.HORIZON] = -np.inf, np.inf
+    clock[of_run.OPEN_LIMIT] = _open_limit(prepared, settings)
     if settings.corrector is not None:
-        clock[CORRECTOR_TOLERANCE] = settings.corrector.tolerance
+        clock[of_run.CORRECTOR_TOLERANCE] = settings.corrector.tolerance
     return clock
 
 
@@ -175,11 +149,11 @@ def _step_ratio(sampled: Sampled, step: float) -> Fraction:
 
 def _pace(prepared: Prepared, settings: RunSettings) -> Array:
     """Nothing done yet, and steps as long as the settings and the functions of time allow."""
-    pace = np.zeros((PACES, PARTS))
-    pace[LEAST] = np.inf
-    pace[ALLOWED] = settings.largest_step
+    pace = np.zeros((of_run.PACES, of_run.PARTS))
+    pace[of_run.LEAST] = np.inf
+    pace[of_run.ALLOWED] = settings.largest_step
     if prepared.allowed is not None:
-        pace[ALLOWED] = np.minimum(pace[ALLOWED], prepared.allowed)
+        pace[of_run.ALLOWED] = np.minimum(pace[of_run.ALLOWED], prepared.allowed)
     return pace
 
 
@@ -191,12 +165,12 @@ def _open_limit(prepared: Prepared, settings: RunSettings) -> float:
 
 
 def _counters(settings: RunSettings, facts: IntegratorFacts) -> NDArray[np.int64]:
-    count = np.zeros(COUNTS, dtype=np.int64)
-    count[ALL_STEPS], count[EVERY], count[LAST_FRAME] = settings.steps, settings.every, -1
-    count[ORDER] = facts.order
+    count = np.zeros(of_run.COUNTS, dtype=np.int64)
+    count[of_run.ALL_STEPS], count[of_run.EVERY], count[of_run.LAST_FRAME] = settings.steps, settings.every, -1
+    count[of_run.ORDER] = facts.order
     if settings.corrector is not None:
-        count[MOST_ITERATIONS] = settings.corrector.most_iterations
-        count[NEWTON] = int(settings.corrector.iteration == "newton")
+        count[of_run.MOST_ITERATIONS] = settings.corrector.most_iterations
+        count[of_run.NEWTON] = int(settings.corrector.iteration == "newton")
     return count
 
 

@@ -33,23 +33,9 @@ from nivel.analysis.run.prepared_state import (
 from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.files.target import written
 from nivel.files.writer import write_machine
+from nivel.integrate.loop import run as of_run
 from nivel.integrate.loop.loop import advance
-from nivel.integrate.loop.run import (
-    AFTER,
-    ALL_STEPS,
-    BEFORE,
-    BUDGET,
-    DONE_STEPS,
-    END,
-    EVENTS,
-    EVERY,
-    FRAMES,
-    RESTART,
-    SIDE,
-    STOPPED,
-    TIME,
-    Run,
-)
+from nivel.integrate.loop.run import Run
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, DONE, OK
@@ -175,7 +161,7 @@ class Simulation:
         self._events: list[Occurrence] = []
         self._memory = Memory()
         self._memory.begin(self._header)
-        self._counter[EVERY] = plan.settings.every if record else ENDLESS
+        self._counter[of_run.EVERY] = plan.settings.every if record else ENDLESS
         self._recorded = record
         self.go(0)
 
@@ -184,7 +170,7 @@ class Simulation:
     @property
     def time(self) -> float:
         """[s]"""
-        return self._clock[TIME]
+        return self._clock[of_run.TIME]
 
     @property
     def step_size(self) -> float:
@@ -194,7 +180,7 @@ class Simulation:
     @property
     def steps(self) -> int:
         """Steps done since the start."""
-        return self._counter[DONE_STEPS]
+        return self._counter[of_run.DONE_STEPS]
 
     def step(self, inputs: Mapping[str, float] | None = None) -> None:
         """One step of the integrator. inputs : values of inputs and states of the machine, set before the step; inputs keep them until
@@ -227,16 +213,16 @@ class Simulation:
     def go(self, steps: int) -> None:
         """So many steps in one compiled call. Raises as `step` does."""
         counter = self._counter
-        if counter[STOPPED]:
+        if counter[of_run.STOPPED]:
             raise ModelError(self._over)
-        target = counter[DONE_STEPS] + steps
-        counter[BUDGET] = steps
+        target = counter[of_run.DONE_STEPS] + steps
+        counter[of_run.BUDGET] = steps
         status = self._advance()
         while status == BUFFER_FULL:
             self._take_frames()
-            counter[BUDGET] = target - counter[DONE_STEPS]
+            counter[of_run.BUDGET] = target - counter[of_run.DONE_STEPS]
             status = self._advance()
-        if counter[EVENTS]:
+        if counter[of_run.EVENTS]:
             self._events += taken_events(self._run, self._prepared.motion.system.events)
         if status not in (BUDGET_SPENT, DONE):
             self._fail(status)
@@ -270,9 +256,9 @@ class Simulation:
                 kinds[place], values[place] = CONSTANT, number
                 changed = True
         if changed:
-            self._counter[RESTART] = 1
+            self._counter[of_run.RESTART] = 1
             self._observed = -np.inf
-            self._evaluate.number.value = self._clock[TIME]
+            self._evaluate.number.value = self._clock[of_run.TIME]
             status = self._evaluate()
             if status != OK:
                 self._fail(status)
@@ -285,12 +271,12 @@ class Simulation:
         Raises ModelError for an unknown name, for values that the joints do not allow (nothing is changed then), for machines with
         flexible bodies, and where the simulation is over.
         """
-        if self._counter[STOPPED]:
+        if self._counter[of_run.STOPPED]:
             raise ModelError(self._over)
         wanted = self._coordinates(coordinates, "coordinates"), self._coordinates(rates or {}, "rates")
         if not (wanted[0] or wanted[1]):
             return
-        if self._observed != self._clock[TIME]:
+        if self._observed != self._clock[of_run.TIME]:
             self._observe()
         posture = {name: self._view(name) for name in ("position", "orientation", "velocity", "angular_velocity")}
         system, y = self._prepared.motion.system, self._run.y
@@ -301,7 +287,7 @@ class Simulation:
         y[:] = self._run.previous[:] = placed.y
         reference = system.record.coordinates.reference
         reference[:] = placed.reference
-        self._counter[RESTART] = 1
+        self._counter[of_run.RESTART] = 1
         self._begin_again()
         if np.abs(self._view("position") - placed.position).max() > PLACED * system.size:
             self.restore(kept)
@@ -341,7 +327,7 @@ class Simulation:
     def _begin_again(self) -> None:
         """Evaluate the state, which was not reached by steps, and take the sides of events there."""
         self._observed = -np.inf
-        time = self._evaluate.number.value = self._clock[TIME]
+        time = self._evaluate.number.value = self._clock[of_run.TIME]
         status = self._evaluate()
         if status != OK:
             self._fail(status)
@@ -349,8 +335,8 @@ class Simulation:
         if values.shape[1]:
             motion = self._prepared.motion
             watch.code(motion.handle.address, 0, time)
-            values[[BEFORE, AFTER]] = motion.system.record.watched.value[: values.shape[1]]
-            values[SIDE] = np.sign(values[BEFORE])
+            values[[of_run.BEFORE, of_run.AFTER]] = motion.system.record.watched.value[: values.shape[1]]
+            values[of_run.SIDE] = np.sign(values[of_run.BEFORE])
         self._observe()
 
     def check_inputs(self, inputs: Mapping[str, float]) -> None:
@@ -383,7 +369,7 @@ class Simulation:
         """The present value of `name`: a number, or an array of its components. Names and units are those of results."""
         if name == "time":
             return self.time
-        if self._observed != self._clock[TIME]:
+        if self._observed != self._clock[of_run.TIME]:
             self._observe()
         place = self._places.get(name)
         if place is not None:
@@ -427,7 +413,7 @@ class Simulation:
 
     def _observe(self) -> None:
         """Write the frame of the present state, with accelerations and reactions free of Baumgarte's feedback."""
-        time = self._clock[TIME]
+        time = self._clock[of_run.TIME]
         if self._feeds_back:
             feedback = self._prepared.motion.system.record.control.stabilise
             kept = feedback.copy()
@@ -448,7 +434,7 @@ class Simulation:
     @property
     def stopped_by(self) -> str:
         """Name of the event that ended the simulation; empty while it can go on."""
-        number = self._counter[STOPPED]
+        number = self._counter[of_run.STOPPED]
         return self._prepared.motion.system.events[number - 1] if number else ""
 
     def result(self) -> Result:
@@ -459,13 +445,13 @@ class Simulation:
         return self._memory.close({"outcome": "interrupted"})
 
     def _take_frames(self) -> None:
-        filled = self._counter[FRAMES]
+        filled = self._counter[of_run.FRAMES]
         if filled and self._recorded:
             frames = self._run.frames[:filled]
             if self._loads is not None:
                 self._loads.share(frames)
             self._memory.take(frames)
-        self._counter[FRAMES] = 0
+        self._counter[of_run.FRAMES] = 0
 
     # --- keeping ---
 
@@ -504,7 +490,7 @@ class Simulation:
             arguments[places] = own
         for unit, content in zip(self._units, state.units, strict=True):
             unit.restore(content)
-        self._counter[FRAMES] = 0
+        self._counter[of_run.FRAMES] = 0
         if self._events:
             self._events = [event for event in self._events if event.time <= state.time]
         self._observed = -np.inf
@@ -521,7 +507,7 @@ class Simulation:
         try:
             self._close_again()
             self._previous[:] = self._y[:]
-            self._counter[RESTART] = 1
+            self._counter[of_run.RESTART] = 1
             self._begin_again()
         except (ModelError, SolveError):
             self.restore(before)
@@ -534,7 +520,7 @@ class Simulation:
         """Close the joints that other lengths have opened."""
         constraints = self._prepared.motion.system.record.constraints
         correct, address = self._correct, self._prepared.motion.handle.address
-        motion, time = self._prepared.motion, self._clock[TIME]
+        motion, time = self._prepared.motion, self._clock[of_run.TIME]
         for _ in range(CORRECTIONS):
             motion.evaluate(time, self._run.y)
             rows = slice(0, len(constraints.C))
@@ -607,7 +593,7 @@ def _endless(prepared: Prepared, plan: Plan, *, whole: bool) -> tuple[Loop, NDAr
     its frames and its pace, which no fixed step reads."""
     loop = start_loop(prepared, plan.settings)
     run: Run = loop.history.record
-    run.counter[ALL_STEPS], run.clock[END] = ENDLESS, np.inf
+    run.counter[of_run.ALL_STEPS], run.clock[of_run.END] = ENDLESS, np.inf
     if not whole:
         return loop, None
     own, piece = in_one_piece(run._replace(frames=NOTHING, pace=NOTHING))

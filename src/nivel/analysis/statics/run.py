@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from contextlib import suppress
 from os import PathLike
 
 import numpy as np
@@ -65,12 +66,20 @@ def statics_attributes(
 
 # A state whose loads are this many times what round-off makes of them, or less, has none.
 UNLOADED = 10.0
+# in place of the number of unstable directions: what is sampled has no rates, by which it could be told
+NOT_JUDGED = -1
 
 
 @dataclass
 class Walk:
-    """What is known of a path so far. ended : (message, advice) of a failure."""
+    """The equilibria of a machine from `start` on: where their frames go, and what is known of the path so far. ended : (message, advice)
+    of a failure."""
 
+    equations: StaticEquations
+    start: Rest
+    settings: StaticsSettings
+    writer: FrameWriter
+    sink: Memory | Store
     points: list[Point] = field(default_factory=list)
     counts: list[int] = field(default_factory=list)
     critical: list[CriticalPoint] = field(default_factory=list)
@@ -81,6 +90,119 @@ class Walk:
     outcome: str = "done"
     ended: tuple[str, str] | None = None
     buckling: list[tuple[float, str]] = field(default_factory=list)
+
+    def go(self, listener: Listener) -> None:
+        """Find all equilibria and store them."""
+        with interruptible() as interrupted:
+            for point in self._follow(listener):
+                self._take(point)
+                if listener.progress is not None:
+                    listener.progress(point.state.t)
+                if interrupted():
+                    self.outcome = "interrupted"
+                    break
+
+    def _fail(self, told: tuple[str, str]) -> None:
+        self.outcome, self.ended = "failed", told
+
+    @property
+    def _iteration(self) -> Iteration:
+        return Iteration(self.settings.tolerance, self.settings.most_iterations, self.settings.line_search)
+
+    def _follow(self, listener: Listener) -> Iterator[Point]:
+        """The equilibria in turn; how the path ended is noted."""
+        equations, settings, iteration = self.equations, self.settings, self._iteration
+        listener.say("looking for the first equilibrium")
+        try:
+            found = settle(equations, self.start, iteration)
+        except EquilibriumError as error:
+            self._fail(no_start(equations, error))
+            return
+        loose = None if equations.states_move else softest(found.tangent)
+        as_drawn = found.iterations == 0 and not settings.duration
+        if loose is not None and is_mechanism(loose) and not (settings.modes and as_drawn):
+            whole = of_whole(equations, found.state, found.tangent)
+            if not whole.alone:
+                self._fail(without_stiffness(equations, found.state, loose))
+                return
+            self.free_motions = whole.motions
+        equations.follow(found.state)
+        first = Point(found, 0.0)
+        yield first
+        if not settings.duration:
+            return
+        listener.say("following the equilibria", settings.duration)
+        steps = Steps(settings.duration, settings.interval, iteration)
+        try:
+            yield from (by_arc_length if settings.arc_length else by_loads)(equations, first, steps)
+        except EquilibriumError as error:
+            self._fail(path_ended(equations, self.points[-1], steps, error, settings.arc_length))
+
+    def _take(self, point: Point) -> None:
+        """Frames of the critical points before an equilibrium, and of itself."""
+        equations = self.equations
+        if equations.states_move:
+            held = depends_on_samples(equations, point.state)
+            count = NOT_JUDGED if held else growing_motions(equations, point.state)
+        else:
+            count = unstable_directions(point.found.tangent)
+            self.without_potential |= not has_potential(point.found.tangent)
+        if self.points and self.counts[-1] != count and not equations.states_move:
+            counts = self.counts[-1], count
+            critical = critical_points(equations, self.points[-1], point, counts, self._iteration)
+            self.critical += critical
+            for each in critical:
+                if each.found is not None:
+                    self._write(Point(each.found, each.along), min(counts))
+        self._write(point, count)
+        # the first and the last are needed
+        self.points[1:] = [point] if self.points else []
+        self.points = self.points or [point]
+        self.counts.append(count)
+        self.iterations += point.found.iterations
+
+    def _write(self, point: Point, count: int) -> None:
+        equations, state, tangent = self.equations, point.state, point.found.tangent
+        r, _ = equations.evaluate(state)
+        loads = equations.loads(state)
+        left = float(np.max(np.abs(r), initial=0.0)) * equations.energy
+        restless = restlessness(equations, state) if equations.states_move else 0.0
+        found = None
+        if self.settings.modes:
+            with suppress(PivotError):
+                found = vibrations(tangent, self.settings.modes)
+                self.rigid = max(self.rigid, found.rigid)
+        rounded = equations.round_off(tangent, state)
+        # loads that are round-off themselves are none
+        shares = [each / loads if loads > UNLOADED * rounded else 0.0 for each in (left, rounded)]
+        facts = Facts(point.along, max(shares[0], restless), shares[1], count, point.found.iterations, found)
+        self.sink.take(self.writer.frame(state, facts))
+
+    def find_buckling(self) -> None:
+        """Times at which linear extrapolation of the tangents of the first and the last equilibrium loses its stiffness."""
+        first, last = self.points[0].found, self.points[-1].found
+        try:
+            factors, directions = buckling_factors(first.tangent, last.tangent, self.settings.buckling)
+        except PivotError:
+            message = "the first equilibrium has no positive stiffness, so no buckling loads follow from it"
+            self._fail((message, "Give the machine stiffness, or stabilising loads, at t = 0."))
+            return
+        span = last.state.t - first.state.t
+        self.buckling = [
+            (first.state.t + float(mu) * span, direction_in_words(self.equations, directions[:, k]))
+            for k, mu in enumerate(factors)
+        ]
+
+    def stiffness(self) -> Stiffness | None:
+        """The lowest one as drawn and in the last state; None where states of elements move, or nothing can."""
+        if self.equations.states_move:
+            return None
+        try:
+            last = self.points[-1].found.tangent
+            drawn, loaded = (lowest(each, 1, each.M)[0] for each in (self.equations.tangent(self.start), last))
+        except (PivotError, StateError, np.linalg.LinAlgError):
+            return None
+        return Stiffness(float(drawn[0]), float(loaded[0])) if len(drawn) and len(loaded) else None
 
 
 def prepare_statics(
@@ -131,108 +253,64 @@ def statics(
     sink.begin(Header(writer.layout, statics_attributes(machine, source, prepared, settings)))
     seconds = {"prepare_seconds": time.perf_counter() - begin, "compile_seconds": compile_seconds}
     begin = time.perf_counter()
-    walk = Walk()
+    walk = Walk(equations, start, settings, writer, sink)
     with terminable():
-        _walk(equations, start, settings, walk, writer, sink, listener)
+        walk.go(listener)
         if settings.buckling and walk.outcome == "done":
-            _find_buckling(equations, walk, settings.buckling)
+            walk.find_buckling()
         seconds["loop_seconds"] = time.perf_counter() - begin
-        others = None
+        result, elements = sink.result(), None
         if settings.verify and walk.outcome == "done":
-            others = _with_other_elements(machine, settings, walk, (equations, start, writer), prepared, listener)
-        return _close(machine, sink, prepared, walk, settings, seconds, others)
-
-
-def _walk(
-    equations: StaticEquations,
-    start: Rest,
-    settings: StaticsSettings,
-    walk: Walk,
-    writer: FrameWriter,
-    sink: Memory | Store,
-    listener: Listener,
-) -> None:
-    """Find all equilibria and store them."""
-    with interruptible() as interrupted:
-        for point in _follow(equations, start, settings, walk, listener):
-            _take(equations, writer, sink, walk, point, settings)
-            if listener.progress is not None:
-                listener.progress(point.state.t)
-            if interrupted():
-                walk.outcome = "interrupted"
-                break
+            elements = _with_other_elements(machine, walk, prepared, result, listener)
+        return _close(machine, prepared, walk, result, seconds, elements)
 
 
 MOST_NODES = 400  # of all beams: more are halved in number, not doubled
 
 
 def _with_other_elements(
-    machine: MachineRecord,
-    settings: StaticsSettings,
-    walk: Walk,
-    own: tuple[StaticEquations, Rest, FrameWriter],
-    prepared: Prepared,
-    listener: Listener,
-) -> Callable[[Result], Compared] | None:
-    """The same equilibria with other elements, and what follows from them for a result; None where there are no beams."""
-    pair = other_elements(machine, doubles=sum(len(beam.shares) for beam in machine.beams) <= MOST_NODES)
+    machine: MachineRecord, walk: Walk, prepared: Prepared, result: Result, listener: Listener
+) -> Compared | None:
+    """The same equilibria with other elements, and what follows from them for the result; None where there are no beams."""
+    pair, settings = (
+        other_elements(machine, doubles=sum(len(each.shares) for each in machine.beams) <= MOST_NODES),
+        walk.settings,
+    )
     if pair is None:
         return None
     frame, names = Memory(), prepared.motion.system.layout.coordinates["body"]
-    frame.begin(Header(own[2].layout, {}))
-    frame.take(own[2].frame(own[1], Facts(0.0, 0.0, 0.0, 0, 0, None)))
+    frame.begin(Header(walk.writer.layout, {}))
+    frame.take(walk.writer.frame(walk.start, Facts(0.0, 0.0, 0.0, 0, 0, None)))
     drawn = dict(zip(names, frame.result().array("position")[0], strict=True))
     loose = prepared.redundancy.non_unique_joints
-    unique = tuple(each.name for each in machine.joints if each.name not in loose)
-    stiffness = _stiffness(own[0], own[1], walk)
-    found, sink, why, its = Walk(), Memory(), "", None
+    own, its, other, why = walk.stiffness(), None, None, ""
     listener.say(f"verifying with {pair.words} elements of beams")
-    silent = Listener()
     try:
-        other, equations = prepare_statics(pair.machine, settings)
-        start = _start(equations, other)
-        writer = FrameWriter(equations, settings.modes)
-        sink.begin(Header(writer.layout, {}))
-        _walk(equations, start, settings, found, writer, sink, silent)
-        its = _stiffness(equations, start, found) if found.points else None
+        other_prepared, equations = prepare_statics(pair.machine, settings)
+        start = _start(equations, other_prepared)
+        other = Walk(equations, start, settings, FrameWriter(equations, settings.modes), Memory())
+        other.sink.begin(Header(other.writer.layout, {}))
+        other.go(Listener())
+        its = other.stiffness() if other.points else None
     except (ModelError, SolveError, PivotError) as error:
         why = str(error)
-    if found.outcome == "interrupted":
+    if other is not None and other.outcome == "interrupted":
         walk.outcome = "interrupted"
         return None
-    why = why or (found.ended[0] if found.ended else "")
-    result = None if why else sink.result()
-
-    def compared(own_result: Result) -> Compared:
-        errors = None
-        if result is not None:
-            errors_of = errors_along_path if settings.arc_length else element_errors
-            errors = errors_of(own_result, result, pair.factor)
-        return Compared(
-            pair=pair,
-            result=result,
-            errors=errors,
-            why=why,
-            drawn=drawn,
-            unique=unique,
-            own=stiffness,
-            its=its,
-            by_arc=settings.arc_length,
-        )
-
-    return compared
-
-
-def _stiffness(equations: StaticEquations, start: Rest, walk: Walk) -> Stiffness | None:
-    """The lowest stiffness as drawn and in the last state; None where states of elements move, or nothing can."""
-    if equations.states_move:
-        return None
-    try:
-        last = walk.points[-1].found.tangent
-        drawn, loaded = (lowest(each, 1, each.M)[0] for each in (equations.tangent(start), last))
-    except (PivotError, StateError, np.linalg.LinAlgError):
-        return None
-    return Stiffness(float(drawn[0]), float(loaded[0])) if len(drawn) and len(loaded) else None
+    why = why or (other.ended[0] if other is not None and other.ended else "")
+    found = None if why or other is None else other.sink.result()
+    errors_of = errors_along_path if settings.arc_length else element_errors
+    return Compared(
+        pair=pair,
+        result=found,
+        errors=None if found is None else errors_of(result, found, pair.factor),
+        why=why,
+        drawn=drawn,
+        unique=tuple(each.name for each in machine.joints if each.name not in loose),
+        own=own,
+        its=its,
+        by_arc=settings.arc_length,
+    )
 
 
 def _start(equations: StaticEquations, prepared: Prepared) -> Rest:
@@ -257,135 +335,18 @@ def _depends_on_time(equations: StaticEquations, state: Rest, duration: float) -
         return True
 
 
-def _follow(
-    equations: StaticEquations, start: Rest, settings: StaticsSettings, walk: Walk, listener: Listener
-) -> Iterator[Point]:
-    """The equilibria in turn; how the path ended is left in `walk`."""
-    iteration = Iteration(settings.tolerance, settings.most_iterations, settings.line_search)
-    listener.say("looking for the first equilibrium")
-    try:
-        found = settle(equations, start, iteration)
-    except EquilibriumError as error:
-        walk.outcome, walk.ended = "failed", no_start(equations, error)
-        return
-    loose = None if equations.states_move else softest(found.tangent)
-    as_drawn = found.iterations == 0 and not settings.duration
-    if loose is not None and is_mechanism(loose) and not (settings.modes and as_drawn):
-        whole = of_whole(equations, found.state, found.tangent)
-        if not whole.alone:
-            walk.outcome, walk.ended = "failed", without_stiffness(equations, found.state, loose)
-            return
-        walk.free_motions = whole.motions
-    equations.follow(found.state)
-    first = Point(found, 0.0)
-    yield first
-    if not settings.duration:
-        return
-    listener.say("following the equilibria", settings.duration)
-    steps = Steps(settings.duration, settings.interval, iteration)
-    try:
-        yield from (by_arc_length if settings.arc_length else by_loads)(equations, first, steps)
-    except EquilibriumError as error:
-        walk.outcome, walk.ended = "failed", path_ended(equations, walk.points[-1], steps, error, settings.arc_length)
-
-
-# in place of the number of unstable directions: what is sampled has no rates, by which it could be told
-NOT_JUDGED = -1
-
-
-def _take(
-    equations: StaticEquations,
-    writer: FrameWriter,
-    sink: Memory | Store,
-    walk: Walk,
-    point: Point,
-    settings: StaticsSettings,
-) -> None:
-    """Frames of the critical points before an equilibrium, and of itself."""
-    if equations.states_move:
-        held = depends_on_samples(equations, point.state)
-        count = NOT_JUDGED if held else growing_motions(equations, point.state)
-    else:
-        count = unstable_directions(point.found.tangent)
-        walk.without_potential |= not has_potential(point.found.tangent)
-    if walk.points and walk.counts[-1] != count and not equations.states_move:
-        iteration = Iteration(settings.tolerance, settings.most_iterations, settings.line_search)
-        critical = critical_points(equations, walk.points[-1], point, (walk.counts[-1], count), iteration)
-        walk.critical += critical
-        for each in critical:
-            if each.found is not None:
-                _write(
-                    equations, writer, sink, walk, Point(each.found, each.along), min(walk.counts[-1], count), settings
-                )
-    _write(equations, writer, sink, walk, point, count, settings)
-    # the first and the last are needed
-    walk.points[1:] = [point] if walk.points else []
-    walk.points = walk.points or [point]
-    walk.counts.append(count)
-    walk.iterations += point.found.iterations
-
-
-def _write(
-    equations: StaticEquations,
-    writer: FrameWriter,
-    sink: Memory | Store,
-    walk: Walk,
-    point: Point,
-    count: int,
-    settings: StaticsSettings,
-) -> None:
-    state = point.state
-    r, _ = equations.evaluate(state)
-    loads = equations.loads(state)
-    left = float(np.max(np.abs(r), initial=0.0)) * equations.energy
-    restless = restlessness(equations, state) if equations.states_move else 0.0
-    found = None
-    if settings.modes:
-        try:
-            found = vibrations(point.found.tangent, settings.modes)
-            walk.rigid = max(walk.rigid, found.rigid)
-        except PivotError:
-            found = None
-    rounded = equations.round_off(point.found.tangent, state)
-    # loads that are round-off themselves are none
-    shares = [each / loads if loads > UNLOADED * rounded else 0.0 for each in (left, rounded)]
-    facts = Facts(point.along, max(shares[0], restless), shares[1], count, point.found.iterations, found)
-    sink.take(writer.frame(state, facts))
-
-
-def _find_buckling(equations: StaticEquations, walk: Walk, count: int) -> None:
-    """Times at which linear extrapolation of the tangents of the first and the last equilibrium loses its stiffness."""
-    first, last = walk.points[0].found, walk.points[-1].found
-    try:
-        factors, directions = buckling_factors(first.tangent, last.tangent, count)
-    except PivotError:
-        walk.ended = (
-            "the first equilibrium has no positive stiffness, so no buckling loads follow from it",
-            "Give the machine stiffness, or stabilising loads, at t = 0.",
-        )
-        walk.outcome = "failed"
-        return
-    span = last.state.t - first.state.t
-    walk.buckling = [
-        (first.state.t + float(mu) * span, direction_in_words(equations, directions[:, k]))
-        for k, mu in enumerate(factors)
-    ]
-
-
 def _close(
     machine: MachineRecord,
-    sink: Memory | Store,
     prepared: Prepared,
     walk: Walk,
-    settings: StaticsSettings,
+    result: Result,
     seconds: dict[str, float],
-    others: Callable[[Result], Compared] | None,
+    elements: Compared | None,
 ) -> Result:
-    result = sink.result()
     if walk.ended is None and (loaded := loaded_free(machine, result, prepared.motion.system.size)):
         walk.outcome, walk.ended = "failed", loaded
     message, advice = walk.ended or ("", "")
-    elements = others(result) if others is not None and walk.ended is None else None
+    elements = elements if walk.ended is None else None
     equilibria = Equilibria(
         result=result,
         outcome=walk.outcome,
@@ -424,7 +385,7 @@ def _close(
     if errors is not None and np.all(np.diff(errors.time) > 0.0):
         attributes[ESTIMATES] = with_elements(None, errors).to_json()
     reached = float(result.time[-1]) if len(result.time) else 0.0
-    result = sink.close(attributes)
+    result = walk.sink.close(attributes)
     if walk.ended is not None:
         raise SolveError(message, time=reached, advice=advice, result=result)
     return result

@@ -51,6 +51,12 @@ def label_of(name: str) -> str:
     return words[:1].upper() + words[1:]
 
 
+def first_of(names: Sequence[str], most: int, between: str = ", ", more: str = "more") -> str:
+    """The first `most` of the names, and how many more there are."""
+    rest = f"{'; ' if between == '; ' else ' '}and {len(names) - most} {more}" if len(names) > most else ""
+    return between.join(names[:most]) + rest
+
+
 def seconds(value: float) -> str:
     """A time [s] in the unit that suits it: 31 ms, 3.9 µs, 2.5 s."""
     for factor, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "µs")):

@@ -50,6 +50,12 @@ class MotionEquations:
         np.add.at(out, (row, body), block)
         return out.reshape(system.machine_rows, 6 * system.body_count)
 
+    def jacobian_in_lengths(self) -> Array:
+        """The same with lengths in units of the machine's length."""
+        J = self.jacobian().reshape(self.system.machine_rows, self.system.body_count, 6)
+        J[:, :, :3] *= self.system.size
+        return J.reshape(len(J), 6 * self.system.body_count)
+
     def jacobian_blocks(self, coordinates: Sequence[int] = ()) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:
         """Row (n,), body (n,) and entries (n, 6) of the blocks of `jacobian`, to be added up; as further rows the derivatives of
         `coordinates`, which are measured in every evaluation."""
@@ -107,11 +113,69 @@ def moved(q: Array, change: Array) -> Array:
 def change_between(before: Array, after: Array) -> Array:
     """Tangent change (B, 6) from positions `before` (7 B,) to `after`: translation [m], body-axis rotation vector [rad]."""
     p, q = before.reshape(-1, 7), after.reshape(-1, 7)
+    return np.hstack([q[:, :3] - p[:, :3], rotation_between(p[:, 3:], q[:, 3:])])
+
+
+def rotation_between(p: Array, q: Array) -> Array:
+    """Rotation vectors (…, 3) [rad] in the axes of p that lead from Euler parameters p to q, both (…, 4)."""
+    p, q = (each / np.linalg.norm(each, axis=-1, keepdims=True) for each in (p, q))
     # vector part of the turn between two unit quaternions: its length is sin(angle/2)
-    e0, e, f0, f = p[:, 3:4], p[:, 4:], q[:, 3:4], q[:, 4:]
-    half = e0 * f - f0 * e - cross(e, f)
-    half = np.where(np.sum(p[:, 3:] * q[:, 3:], axis=1, keepdims=True) < 0.0, -half, half)
-    sine = np.linalg.norm(half, axis=1, keepdims=True)
-    angle = 2.0 * np.arcsin(np.clip(sine, 0.0, 1.0))
-    turn = np.divide(half, sine, out=np.zeros_like(half), where=sine > 0.0) * angle
-    return np.hstack([q[:, :3] - p[:, :3], turn])
+    half = p[..., :1] * q[..., 1:] - q[..., :1] * p[..., 1:] - cross(p[..., 1:], q[..., 1:])
+    cosine = np.sum(p * q, axis=-1, keepdims=True)
+    half = np.where(cosine < 0.0, -half, half)
+    sine = np.linalg.norm(half, axis=-1, keepdims=True)
+    angle = 2.0 * np.arctan2(sine, np.abs(cosine))
+    return np.divide(half, sine, out=np.zeros_like(half), where=sine > 0.0) * angle
+
+
+def turned(theta: Array, psi: Array) -> Array:
+    """Euler parameters (·, 4) of A(θ) exp(ψ̃), of unit length, for rows θ and rotation vectors ψ (·, 3) in the turned axes."""
+    half = 0.5 * np.linalg.norm(psi, axis=1, keepdims=True)
+    e = 0.5 * np.sinc(half / np.pi) * psi
+    f0, e0, v = np.cos(half), theta[:, :1], theta[:, 1:]
+    out = np.hstack([e0 * f0 - np.sum(v * e, axis=1, keepdims=True), e0 * e + f0 * v + cross(v, e)])
+    return out / np.linalg.norm(out, axis=1, keepdims=True)
+
+
+class Unknowns:
+    """The unknowns of the residual of `motion`.
+
+    n : velocities, after the `positions` of y; rows : multipliers; state_count : states, from `first_state` of y on. place (n, 2) :
+    position that each velocity moves, and the axis of a turn. length (n,) : what positions are measured by. free : unknowns that mean
+    something (points do not turn).
+    """
+
+    def __init__(self, motion: MotionEquations) -> None:
+        self.motion, self.system, self.record = motion, motion.system, motion.system.record
+        residual = self.record.residual
+        self.n, self.rows, self.state_count = len(residual.vdot), len(residual.lam), len(self.system.states)
+        self.positions = self.system.positions
+        self.first_state = self.positions + self.n
+        self.place = self.record.newton.place.astype(np.int64)
+        units = np.array(self.system.map.units)[self.place[:, 0]]
+        self.length = np.where(units == "m", self.system.size, 1.0)
+        self.length[units == "kg^0.5 m"] = self.system.modal_sizes()
+        self.free = np.flatnonzero(~self._idle())
+
+    def _idle(self) -> NDArray[np.bool_]:
+        """Unknowns that mean nothing: turns of point masses."""
+        body, count = np.full(self.n, -1), self.system.body_count
+        nodes = self.record.tree.node
+        if len(nodes):
+            for node in nodes.tolist():
+                # frames at interfaces are no points
+                body[node[4] : node[5]] = node[0] if node[0] < count else -1
+        else:
+            body[: 6 * count] = np.repeat(np.arange(count), 6)
+        return np.append(self.system.point_masses, False)[body] & (self.place[:, 1] != NONE)
+
+    def displaced(self, y: Array, psi: Array) -> Array:
+        """The state q ∘ exp ψ, with the rest of y as it is."""
+        y = y.copy()
+        plain = self.place[:, 1] == NONE
+        y[self.place[plain, 0]] += psi[plain]
+        first = np.flatnonzero(self.place[:, 1] == 0)
+        if len(first):
+            at = self.place[first, 0][:, None] + np.arange(4)
+            y[at] = turned(y[at], psi[first[:, None] + np.arange(3)])
+        return y

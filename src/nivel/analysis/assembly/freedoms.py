@@ -93,9 +93,7 @@ def freedoms(motion: MotionEquations) -> Freedoms | None:
         return None
     directions = np.eye(6 * system.body_count)
     if system.machine_rows:
-        J = motion.jacobian().reshape(-1, system.body_count, 6).copy()
-        J[:, :, :3] *= system.size
-        J = J.reshape(len(J), -1)
+        J = motion.jacobian_in_lengths()
         _, size, every = np.linalg.svd(J / np.maximum(np.linalg.norm(J, axis=1, keepdims=True), 1e-300))
         directions = every[int(np.sum(size > RANK * size[0])) :]
     return Freedoms(directions)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.linalg import lstsq
 from scipy.spatial.transform import Rotation
 
-from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.equations import MotionEquations, Unknowns
 from nivel.errors import SolveError
 from nivel.kernels.core.arrays import lanes_of
 from nivel.kernels.core.status import OK
@@ -69,28 +69,18 @@ class Slopes:
     seen: Array
 
 
-class Instant:
+class Instant(Unknowns):
     """The equations of `motion`, which has a residual and its twin, at time t [s] in the state y.
 
-    n : velocities. free : those that mean something (points do not turn). velocity_rows : rows that hold
-    velocities alone. v̇ (n,) and λ (K,) are those of the motion.
+    velocity_rows : rows that hold velocities alone. v̇ (n,) and λ (K,) are those of the motion.
     """
 
     def __init__(self, motion: MotionEquations, t: float, y: Array) -> None:
         if motion.twin is None:
             raise TypeError("the equations have no twin on dual numbers")
-        self.motion, self.system, self.record = motion, motion.system, motion.system.record
+        super().__init__(motion)
         self.t, self.y = t, y.copy()
-        residual = self.record.residual
-        self.n, self.rows, self.state_count = len(residual.vdot), len(residual.lam), len(self.system.states)
-        self.velocity_rows = np.flatnonzero(np.isin(residual.row, list(self.system.velocity_rows)))
-        self.positions = self.system.positions
-        self.first_state = self.positions + self.n
-        self.place = self.record.newton.place.astype(np.int64)
-        units = np.array(self.system.map.units)[self.place[:, 0]]
-        self.length = np.where(units == "m", self.system.size, 1.0)
-        self.length[units == "kg^0.5 m"] = self.system.modal_sizes()
-        self.free = np.flatnonzero(~self._idle())
+        self.velocity_rows = np.flatnonzero(np.isin(self.record.residual.row, list(self.system.velocity_rows)))
         self.twin: Any = lanes_of(motion.twin.record)
         self._residual = FAMILIES[int(self.record.hooks.address[RESIDUAL])].twin
         measure = int(self.record.hooks.address[MEASURE])
@@ -107,17 +97,6 @@ class Instant:
         """Tell the tree which turn its angles are in."""
         if len(self.record.tree.node):
             self.record.tree.state[: self.positions] = self.y[: self.positions]
-
-    def _idle(self) -> NDArray[np.bool_]:
-        """Turns of point masses."""
-        body = np.full(self.n, -1)
-        nodes = self.record.tree.node
-        if len(nodes):
-            for node in nodes.tolist():
-                body[node[4] : node[5]] = node[0] if node[0] < self.system.body_count else -1
-        else:
-            body[: 6 * self.system.body_count] = np.repeat(np.arange(self.system.body_count), 6)
-        return np.append(self.system.point_masses, False)[body] & (self.place[:, 1] != NONE)
 
     def _motion(self) -> tuple[Array, Array]:
         """(v̇, λ) of the equations of motion, by [M C_qᵀ; C_q 0]; of redundant rows only independent ones are here."""

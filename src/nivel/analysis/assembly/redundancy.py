@@ -130,7 +130,7 @@ def _certainly_independent(motion: MotionEquations) -> bool:
 
 def scaled_jacobian(motion: MotionEquations, modes: ModalRows | None = None) -> Array:
     """C_q with lengths in units of the machine's length and rows of unit length; the columns of modes behind the others."""
-    J = _in_lengths(motion)
+    J = motion.jacobian_in_lengths()
     if modes is not None:
         J = np.hstack([J, modes.columns(motion)])
     return J / np.linalg.norm(J, axis=1, keepdims=True)
@@ -147,12 +147,6 @@ def row_lengths(motion: MotionEquations) -> Array:
     summed[:, :3] *= system.size
     squares = np.bincount(key // system.body_count, weights=(summed**2).sum(axis=1), minlength=system.machine_rows)
     return np.sqrt(squares)
-
-
-def _in_lengths(motion: MotionEquations) -> Array:
-    J = motion.jacobian().reshape(motion.system.machine_rows, motion.system.body_count, 6).copy()
-    J[:, :, :3] *= motion.system.size
-    return J.reshape(len(J), 6 * motion.system.body_count)
 
 
 def dependent_rows(J: Array) -> tuple[list[int], Array]:

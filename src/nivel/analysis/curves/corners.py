@@ -101,7 +101,7 @@ def _of_expression(expression: Expression, end: float) -> tuple[float, ...]:
 
 def _found(expression: Expression, end: float) -> Iterator[float]:
     times = np.linspace(0.0, end, SAMPLES + 1)
-    for first, second in sides(expression.tree, _of_time_alone, curves=True):
+    for first, second in sides(expression.tree, lambda *nodes: not any(map(signals, nodes)), curves=True):
 
         def difference(time: float, first: Node = first, second: Node | None = second) -> float:
             return evaluate(first, time) - (evaluate(second, time) if second is not None else 0.0)
@@ -136,10 +136,6 @@ def _holds(expression: Expression, time: float) -> bool:
     return True
 
 
-def _of_time_alone(*nodes: Node) -> bool:
-    return not any(signals(node) for node in nodes)
-
-
 def jumping_functions(machine: MachineRecord, among: Collection[Node] | None = None) -> tuple[str, ...]:
     """Names and texts of the functions that jump where something of the motion passes a value; those of samples jump anyway.
 
@@ -151,12 +147,8 @@ def jumping_functions(machine: MachineRecord, among: Collection[Node] | None = N
         if each.sampling is None
         and isinstance(each.function, Expression)
         and (among is None or each.function.tree in among)
-        and jumps(each.function.tree, _reads_signals)
+        and jumps(each.function.tree, lambda node: bool(signals(node)))
     )
-
-
-def _reads_signals(node: Node) -> bool:
-    return bool(signals(node))
 
 
 # samples in one of the PARTS of a run

@@ -76,9 +76,7 @@ def steps_of(pace: Array, duration: float, step: float | None, corners: tuple[fl
             last = (k + (many - 1) / many) * part
     within = [np.arange(many) / many for many in count[kept].tolist()]
     times = (np.repeat(kept, count[kept]) + np.concatenate(within)) * part
-    ends = np.unique(np.concatenate([times, [t for t in corners if t < duration], [duration]]))
-    stride = -(-len(ends) // MOST_STEPS)
-    return Steps(ends[:-1][::stride], np.diff(ends)[::stride])
+    return steps_between(np.unique(np.concatenate([times, [t for t in corners if t < duration], [duration]])))
 
 
 def steps_between(ends: Array) -> Steps:
@@ -181,7 +179,7 @@ def has_switches(machine: MachineRecord) -> bool:
 
 def _switches(expression: Expression) -> Iterator[tuple[Node, Node | None]]:
     """Pairs of expressions whose order decides. Corners of curves are no switches."""
-    return sides(expression.tree, _of_signals, curves=False)
+    return sides(expression.tree, lambda *nodes: any(map(signals, nodes)), curves=False)
 
 
 def cut_at_switches(function: Varying, path: Path, steps: Steps) -> Steps:
@@ -201,10 +199,6 @@ def cut_at_switches(function: Varying, path: Path, steps: Steps) -> Steps:
     return Steps(begin[longer], (end - begin)[longer])
 
 
-def _of_signals(*nodes: Node) -> bool:
-    return any(signals(node) for node in nodes)
-
-
 def _changes(first: Node, second: Node | None, path: Path) -> Array:
     """Times [s] at which the order of two expressions changes, one at most between two frames."""
 
@@ -222,7 +216,6 @@ def _changes(first: Node, second: Node | None, path: Path) -> Array:
     return high
 
 
-Array = NDArray[np.float64]
 # steps that a spline needs
 LEAST_STEPS = 4
 ENDS, SIMPSON, BOOLE = 2, 3, 5

@@ -31,7 +31,6 @@ from nivel.analysis.linearise.ports import Catalogue
 from nivel.analysis.linearise.reduction import Ports, Reduction, velocity_names
 from nivel.analysis.linearise.validity import coordinate_signs
 from nivel.analysis.run.prepared_state import Moment
-from nivel.analysis.statics.equations import turned
 from nivel.errors import ModelError
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.machine_record import MachineRecord
@@ -122,16 +121,10 @@ class Mechanics:
 
     def displaced(self, q: Array, change: Array) -> Array:
         """Positions after a change (f,) of the independent coordinates, turns about axes of their bodies; loops closed again."""
-        own, out = self._instant, self._in_tree(q)
+        own = self._instant
         psi = np.zeros(own.n)
         psi[own.free[self._selected]] = self._velocity_signs * change
-        plain = own.place[:, 1] > LAST_AXIS
-        out[own.place[plain, 0]] += psi[plain]
-        first = np.flatnonzero(own.place[:, 1] == 0)
-        if len(first):
-            at = own.place[first, 0][:, None] + np.arange(4)
-            out[at] = turned(out[at], psi[first[:, None] + np.arange(3)])
-        return self.close(self._shown(out))
+        return self.close(self._shown(own.displaced(self._in_tree(q), psi)))
 
     def _at(self, q: Array | None, v: Array | None) -> Reduction:
         """The equations at positions q (closed first) and velocities v, with accelerations for a = 0."""

@@ -139,7 +139,7 @@ class PathFollower:
             share = 1.0
             while share >= LEAST_SHARE:
                 try:
-                    after = self._moved(q, share * step)
+                    after = self.mechanics.displaced(q, share * step)
                     error = self._error(after, k)
                     if np.linalg.norm(error) <= allowed:
                         break
@@ -171,9 +171,6 @@ class PathFollower:
             free = every[int(np.sum(size > RANK * size[0])) :].T
             step = step + TOWARDS * self.range * (free @ (free.T @ (wished / self.range)))
         return np.clip(step, low, high)
-
-    def _moved(self, q: Array, step: Array) -> Array:
-        return self.mechanics.displaced(q, step)
 
     def _values(self, q: Array) -> Array:
         """(f,) of the independent coordinates, zero for turns in space."""

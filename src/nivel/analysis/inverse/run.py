@@ -22,6 +22,7 @@ from scipy.optimize import nnls
 from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.inverse.actuators import Actuation, driven_alone
 from nivel.analysis.kinematics.singular import MovingState, moving_states
+from nivel.analysis.linearise.reduction import RANK, free_motions
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.prepared_state import at_start
@@ -97,8 +98,6 @@ def _least_distance(G: Array, h: Array) -> Array | None:
     return None if np.linalg.norm(r) < 1e-10 else -r[:-1] / r[-1]
 
 
-# singular values of the constraints below this share of the largest are zero
-RANK = 1e-9
 # generalised forces missing below this share of the largest are round-off
 MISSING = 1e-6
 # coordinates that do as much to this share are alike
@@ -182,7 +181,7 @@ def _at(
     rates = by_coordinate @ velocity
     rows = J[:, free] * length
     size = np.linalg.norm(rows, axis=1, keepdims=True)
-    Z = length[:, None] * _free_motions(rows / np.where(size > 0.0, size, 1.0))
+    Z = length[:, None] * free_motions(rows / np.where(size > 0.0, size, 1.0))
     every_coordinate = Z.T @ by_coordinate[:, free].T
     column = [int(np.flatnonzero(index == place)[0]) for place in places]
     b = Z.T @ r0
@@ -231,15 +230,6 @@ def _jacobians(instant: Instant, index: NDArray[np.int64]) -> tuple[Array, Array
     np.add.at(out, (row, body), block)
     out = out.reshape(rows + len(index), 6 * system.body_count)
     return out[:rows], out[rows:]
-
-
-def _free_motions(rows: Array) -> Array:
-    """(f, m) orthonormal basis of the motions that the rows allow."""
-    if not len(rows):
-        return np.eye(rows.shape[1])
-    _, size, every = np.linalg.svd(rows)
-    rank = int(np.sum(size > RANK * size[0])) if size[0] > 0.0 else 0
-    return every[rank:].T
 
 
 def with_trust(efforts: Efforts, drivers: Sequence[Driver], motion: Result, replaced: Sequence[Driver] = ()) -> Efforts:

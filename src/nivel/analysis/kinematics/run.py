@@ -124,26 +124,20 @@ def _attributes(
     return {**attributes, "assembly": json.dumps(assembly), "analysis": "kinematics"}
 
 
-class _Taken:
-    """Frames of positions beside those that are asked for."""
-
-    def __init__(self) -> None:
-        self.frames: list[Array] = []
-
-    def begin(self, header: Header) -> None:
-        """The layout is known."""
-
-    def take(self, frames: Array) -> None:
-        self.frames += list(frames.copy())
+def _unnamed(prepared: Prepared) -> Memory:
+    """A sink for positions beside those that are asked for."""
+    sink = Memory()
+    sink.begin(Header(prepared.motion.system.layout, {}))
+    return sink
 
 
 def between(prepared: Prepared, settings: RunSettings) -> Probes:
     """Positions at other times, no multiple of which fits those that are asked for, as probes of the curves through these."""
-    count, taken = max(1, settings.steps), _Taken()
+    count, taken = max(1, settings.steps), _unnamed(prepared)
     step = settings.step * GOLDEN * max(1.0, count / MOST_BETWEEN)
     steps = max(1, int(settings.duration / step))
     follow(prepared, replace(settings, step=step, steps=steps, every=1, output_interval=step), taken, Listener())
-    return Probes(prepared.motion, (), taken.frames)
+    return Probes(prepared.motion, (), list(taken.frames))
 
 
 def hidden(machine: MachineRecord, prepared: Prepared, steps: RunSettings) -> dict[str, list[float]]:
@@ -184,7 +178,7 @@ def resolved(
     while True:
         settings = settings.replace(positions=count)
         steps = replace(steps, step=settings.step, steps=count - 1, output_interval=settings.step)
-        finished, _ = follow(prepared, steps, _Taken(), Listener(), between(prepared, steps))
+        finished, _ = follow(prepared, steps, _unnamed(prepared), Listener(), between(prepared, steps))
         is_seen = not (finished.between_frames or hidden(machine, prepared, steps))
         if finished.outcome != "done" or is_seen or count >= MOST_POSITIONS:
             return settings, steps

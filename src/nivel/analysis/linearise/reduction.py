@@ -159,7 +159,7 @@ class Reduction:
     def _chosen_for(self, kept: Index, among: Index) -> Index:
         """Independent coordinates of the motions that these rows leave, `among` those."""
         length = self.instant.length[self.instant.free]
-        N = _null_space(self.J[kept] * length / self.instant.row_scale[kept, None])
+        N = free_motions(self.J[kept] * length / self.instant.row_scale[kept, None])
         if not N.shape[1]:
             return np.zeros(0, dtype=np.intp)
         pivoted: Any = qr(N[among].T, mode="economic", pivoting=True)
@@ -332,12 +332,12 @@ class Reduction:
         return M, D, K
 
 
-def _null_space(rows: Array) -> Array:
+def free_motions(rows: Array) -> Array:
     """(f, m) orthonormal basis of the motions that the rows allow."""
     if not rows.shape[0]:
         return np.eye(rows.shape[1])
     _, sizes, every = np.linalg.svd(rows)
-    rank = int(np.sum(sizes > RANK * sizes[0])) if len(sizes) else 0
+    rank = int(np.sum(sizes > RANK * sizes.max(initial=0.0)))
     return every[rank:].T
 
 

@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 from scipy.linalg import lstsq
 
+from nivel.analysis.assembly.equations import turned
 from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.assembly.unknown_groups import unknown_name
 from nivel.analysis.run.prepared_state import Moment
-from nivel.analysis.statics.equations import turned
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.kernels.record.record import NONE
 from nivel.lazy import dataclass, replace

@@ -33,6 +33,7 @@ from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.analyses.linear_motion import Posed
 from nivel.results.analyses.sampled_model import SampledModel
 from nivel.system.system import Array
+from nivel.words.wording import first_of
 
 NAMED = 6  # states in a sentence
 
@@ -299,15 +300,11 @@ def _zeros(found: Eigen, states: _States) -> tuple[str, ...]:
     out = []
     single = [states.names[group[0]] for group in found.zeros if len(group) == 1]
     if single:
-        out.append(f"{len(single)} exactly zero, by structure: no stiffness acts on {_listed(single)}")
+        out.append(f"{len(single)} exactly zero, by structure: no stiffness acts on {first_of(single, NAMED)}")
     for group in dict.fromkeys(group for group in found.zeros if len(group) > 1):
         names = [states.names[k] for k in group]
-        out.append(f"{found.zeros.count(group)} exactly zero, of a rigid motion of {_listed(names)}")
+        out.append(f"{found.zeros.count(group)} exactly zero, of a rigid motion of {first_of(names, NAMED)}")
     return tuple(out)
-
-
-def _listed(names: Sequence[str]) -> str:
-    return ", ".join(names[:NAMED]) + (f" and {len(names) - NAMED} more" if len(names) > NAMED else "")
 
 
 def _posed(machine: MachineRecord, source: str, moment: Moment, instant: Instant, settings: LineariseSettings) -> Posed:

@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 from scipy.optimize import brentq
 
+from nivel.analysis.assembly.equations import rotation_between
 from nivel.analysis.assembly.freedoms import Freedoms
 from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEquations, Tangent
 from nivel.analysis.statics.frames import FrameWriter
@@ -134,17 +135,6 @@ def _difference(equations: StaticEquations, a: Rest, b: Rest) -> Change:
     free = equations.free
     lam = (b.lam - a.lam) * equations.row_scale / equations.energy
     return Change((psi / equations.length)[free], lam, (b.t - a.t) / equations.duration)
-
-
-def rotation_between(p: Array, q: Array) -> Array:
-    """Rotation vectors (·, 3) in the axes of p that lead from Euler parameters p to q, rows (·, 4)."""
-    p, q = (each / np.linalg.norm(each, axis=1, keepdims=True) for each in (p, q))
-    e = p[:, :1] * q[:, 1:] - q[:, :1] * p[:, 1:] - np.cross(p[:, 1:], q[:, 1:])
-    cosine = np.sum(p * q, axis=1, keepdims=True)
-    e, cosine = np.where(cosine < 0.0, -e, e), np.abs(cosine)
-    sine = np.linalg.norm(e, axis=1, keepdims=True)
-    angle = 2.0 * np.arctan2(sine, cosine)
-    return np.divide(e, sine, out=np.zeros_like(e), where=sine > 0.0) * angle
 
 
 def _values(tangent: Tangent, number: int) -> tuple[Array, Array, int]:

@@ -1,8 +1,8 @@
 """The equations of static equilibrium of one machine: r(q, 0, 0, λ, t) = 0 and C(q, t) = 0, with exact derivatives, as sparse matrices.
 
 They are the residual of implicit methods (`nivel.kernels.residual.residual`) with all velocities and accelerations zero: the speed of a
-driver,
-which stands in Ċ alone, never enters. Positions move by tangent increments: rotations of bodies after the present one, in their own axes.
+driver, which stands in Ċ alone, never enters. Positions move by tangent increments: rotations of bodies after the present one, in their
+own axes.
 
 So that units do not matter, every number is made one without: translations in lengths of the machine, forces and moments along unknowns as
 energies over a scale of energy e, constraints over their own scales.
@@ -19,14 +19,12 @@ from numpy.typing import NDArray
 from scipy.linalg import null_space
 from scipy.sparse import bmat, csc_matrix
 
-from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.equations import MotionEquations, Unknowns
 from nivel.elements.circuits.volumes import VOLUME
 from nivel.kernels.core.status import OK
 from nivel.kernels.output import static_entries
-from nivel.kernels.record.record import NONE
 from nivel.kernels.residual import tangent_entries
 from nivel.lazy import dataclass, replace
-from nivel.machine.core.vectors import cross
 from nivel.system.layout import reported
 from nivel.system.system import Array
 
@@ -154,46 +152,23 @@ class Tangent:
         return replace(self, K=0.0 * self.K, tie=None)
 
 
-class StaticEquations:
+class StaticEquations(Unknowns):
     """The equations of static equilibrium of `motion`, which has the residual of implicit methods; duration : scale of time [s].
 
     held : forces (f,) without units that hold the machine besides all others, on the way to its first equilibrium; else zero.
     """
 
     def __init__(self, motion: MotionEquations, duration: float) -> None:
-        system = motion.system
-        self.motion, self.system, self.duration = motion, system, duration
-        self.record = system.record
+        super().__init__(motion)
+        self.duration = duration
         self.residual, self.newton = self.record.residual, self.record.newton
-        self.n, self.rows, self.state_count = len(self.residual.vdot), len(self.residual.lam), len(system.states)
-        self.positions = system.positions
-        self.first_state = self.positions + self.n
-        self.state_scale = np.array([fact.scale for fact in system.states])
+        self.state_scale = np.array([fact.scale for fact in self.system.states])
         # whether rates of states are equations beside those of the forces, see `nivel.analysis.statics.states`
         self.states_move = False
         self.record.sampled.at_rest[:] = 1
-        self.place = self.newton.place.astype(np.int64)
-        units = np.array(system.map.units)[self.place[:, 0]]
-        self.length = np.where(units == "m", system.size, 1.0)
-        self.length[units == "kg^0.5 m"] = system.modal_sizes()
-        self.free = np.flatnonzero(~self._idle())
         self.row_scale = self.record.constraints.scale[self.residual.row]
         self.energy = 1.0
         self.held: Array | float = 0.0
-
-    def _idle(self) -> NDArray[np.bool_]:
-        """Unknowns that mean nothing: turns of point masses."""
-        body = np.full(self.n, -1)
-        nodes = self.record.tree.node
-        if len(nodes):
-            for node in nodes.tolist():
-                # frames at interfaces are no points
-                body[node[4] : node[5]] = node[0] if node[0] < self.system.body_count else -1
-        else:
-            count = 6 * self.system.body_count
-            body[:count] = np.repeat(np.arange(self.system.body_count), 6)
-        points = np.append(self.system.point_masses, False)
-        return points[body] & (self.place[:, 1] != NONE)
 
     # --- evaluation ---
 
@@ -316,17 +291,6 @@ class StaticEquations:
         lam = state.lam + self.force_of(change.lam)
         return Rest(self.displaced(state.y, psi), lam, state.t + change.t * self.duration)
 
-    def displaced(self, y: Array, psi: Array) -> Array:
-        """The state q ∘ exp ψ, with the rest of y as it is."""
-        y = y.copy()
-        plain = self.place[:, 1] == NONE
-        y[self.place[plain, 0]] += psi[plain]
-        first = np.flatnonzero(self.place[:, 1] == 0)
-        if len(first):
-            at = self.place[first, 0][:, None] + np.arange(4)
-            y[at] = turned(y[at], psi[first[:, None] + np.arange(3)])
-        return y
-
     def force_of(self, lam: Array) -> Array:
         """Multipliers [N, N m] from those without units."""
         return lam * self.energy / self.row_scale
@@ -377,15 +341,6 @@ class StaticEquations:
         state = Rest(y, np.zeros(self.rows), 0.0)
         self.weigh(state)
         return state
-
-
-def turned(theta: Array, psi: Array) -> Array:
-    """Euler parameters (·, 4) of A(θ) exp(ψ̃), of unit length, for rows θ and rotation vectors ψ (·, 3) in the turned axes."""
-    half = 0.5 * np.linalg.norm(psi, axis=1, keepdims=True)
-    e = 0.5 * np.sinc(half / np.pi) * psi
-    f0, e0, v = np.cos(half), theta[:, :1], theta[:, 1:]
-    out = np.hstack([e0 * f0 - np.sum(v * e, axis=1, keepdims=True), e0 * e + f0 * v + cross(v, e)])
-    return out / np.linalg.norm(out, axis=1, keepdims=True)
 
 
 def with_multipliers(state: Rest, lam: Array) -> Rest:

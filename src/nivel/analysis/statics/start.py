@@ -51,7 +51,7 @@ class Settled:
         moving = np.abs(constraints.Cdot / constraints.scale)[: system.machine_rows] > AT_REST
         if np.any(moving):
             faults = [
-                _fault(
+                Fault.at(
                     f"drivers.{name}.value",
                     f"{name} moves at t = 0, and a run from equilibrium starts at rest: let it start slowly",
                 )
@@ -111,18 +111,14 @@ def settled(machine: MachineRecord, given: Assembled | None = None) -> Settled:
 def _refuse_velocities(machine: MachineRecord) -> None:
     said = "`start: equilibrium` starts at rest: take the velocity away, or start as given"
     faults = [
-        _fault(f"bodies.{body.name}.{key}", said)
+        Fault.at(f"bodies.{body.name}.{key}", said)
         for body in machine.bodies
         for key in ("velocity", "angular_velocity", "angular_velocity_body")
         if np.any(np.array(getattr(body, key) or 0.0))
     ]
     faults += [
-        _fault(f"joints.{joint.name}.start_rates", said)
+        Fault.at(f"joints.{joint.name}.start_rates", said)
         for joint in machine.joints
         if joint.start_rates is not None and any(joint.start_rates.given.values())
     ]
     refuse(faults)
-
-
-def _fault(path: str, message: str) -> Fault:
-    return Fault.at(path, message)

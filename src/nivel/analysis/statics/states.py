@@ -157,12 +157,9 @@ def _nearer(
     while True:
         after = _changed(equations, state, system, share * x)
         moved = since.further(share * x[: len(equations.free)])
-        try:
-            if float(np.linalg.norm(_assembled(equations, after, moved).right)) <= max(2.0 * left, 1e-9):
-                return after, moved, share
-        except StateError:
-            pass
-        if share <= LEAST_SHARE:
+        then = _assembled_or_none(equations, after, moved)
+        nearer = then is not None and float(np.linalg.norm(then.right)) <= max(2.0 * left, 1e-9)
+        if nearer or share <= LEAST_SHARE:
             return after, moved, share
         share *= 0.5
 

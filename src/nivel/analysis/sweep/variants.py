@@ -209,8 +209,9 @@ def lay_out(
     return draw(_distributions(values), design, samples, seed)
 
 
-def _lists(values: Mapping[str, Any], combine: str) -> Parameters:
-    lists: dict[str, Distribution] = {}
+def _read_lists(values: Mapping[str, Any]) -> tuple[dict[str, list[Any]], list[Fault]]:
+    """Lists by path, and what is none."""
+    lists: dict[str, list[Any]] = {}
     faults: list[Fault] = []
     for path, given in values.items():
         each = given.tolist() if getattr(given, "ndim", 0) == 1 else given
@@ -218,8 +219,14 @@ def _lists(values: Mapping[str, Any], combine: str) -> Parameters:
             got = "an empty list" if isinstance(each, Sequence) and not len(each) else shown(given)
             faults.append(Fault.at(path, f"a list of values was expected, got {got}"))
         else:
-            lists[path] = Values.model_construct(values=tuple(plain(value) for value in each))
+            lists[path] = [plain(value) for value in each]
+    return lists, faults
+
+
+def _lists(values: Mapping[str, Any], combine: str) -> Parameters:
+    given, faults = _read_lists(values)
     refuse(faults)
+    lists: dict[str, Distribution] = {path: Values.model_construct(values=tuple(each)) for path, each in given.items()}
     lengths = {path: len(_listed(each)) for path, each in lists.items()}
     if combine == "rows" and len(set(lengths.values())) > 1:
         listed = ", ".join(f"{count} of `{path}`" for path, count in lengths.items())
@@ -266,13 +273,7 @@ def rows_of(values: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Values by path of each variant. Raises ModelError where lists are none, empty, or of several lengths."""
     if not values:
         raise ModelError(Fault.at("values", "nothing varies: give lists by path, {'bodies.rod.mass': [1, 2, 3]}"))
-    lists, faults = {}, []
-    for path, given in values.items():
-        each = given.tolist() if getattr(given, "ndim", 0) == 1 else given
-        if isinstance(each, str) or not isinstance(each, Sequence) or not len(each):
-            faults.append(Fault.at(path, f"a list of values was expected, got {shown(given)}"))
-        else:
-            lists[path] = [plain(value) for value in each]
+    lists, faults = _read_lists(values)
     if not faults and len({len(each) for each in lists.values()}) > 1:
         listed = ", ".join(f"{len(each)} of `{path}`" for path, each in lists.items())
         faults.append(Fault.at("values", f"lists of one length are needed; there are {listed}"))

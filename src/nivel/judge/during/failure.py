@@ -69,14 +69,6 @@ def _broken(stop: Stop) -> Told | None:
     return broken_function(stop.motion, stop.time, stop.step, stop.y)
 
 
-def _fast_beam(stop: Stop) -> Told | None:
-    return too_fast(stop.beams, stop.step)
-
-
-def _crawling(stop: Stop) -> Told:
-    return f"steps have shrunk to {stop.step:.2g} s, and the end is out of reach", jump_advice(stop.jumping)
-
-
 def _out_of_reach(stop: Stop) -> Told:
     """Where a motion is so fast, by a slip of a unit or a force without bounds, that no run follows it to the end."""
     stiff = " or ".join(f"`integrator: {name}`" for name in FOR_STIFF if name != stop.chosen_by)
@@ -354,10 +346,15 @@ def _drift(stop: Stop) -> Told:
 
 
 # what is not a number spoils pivots as well, so it is looked for first
-_FIRST: Final = (_broken, _fast_beam)
+_FIRST: Final = (_broken, lambda stop: too_fast(stop.beams, stop.step))
 FAILURES: Final[dict[Status, tuple[Callable[[Stop], Told | None], ...]]] = {
     Status.OUT_OF_REACH: (_out_of_reach,),
-    Status.CRAWLS: (_crawling,),
+    Status.CRAWLS: (
+        lambda stop: (
+            f"steps have shrunk to {stop.step:.2g} s, and the end is out of reach",
+            jump_advice(stop.jumping),
+        ),
+    ),
     Status.SINGULAR: (*_FIRST, _mass_used_up, _met, _no_step, _singular),
     Status.NOT_FINITE: (*_FIRST, _mass_used_up, _no_step, _not_a_number),
     Status.FRICTION_DIVERGES: (

@@ -16,6 +16,7 @@ from typing import Final
 
 import numpy as np
 
+from nivel.analysis.assembly.equations import rotation_between
 from nivel.judge.after.report import FRAMES, OTHERS, STEPS, Check
 from nivel.judge.after.subject import Equilibria, Run
 from nivel.lazy import dataclass
@@ -131,12 +132,7 @@ def _alone(beam: BeamMesh, curvature: Array) -> Array:
 
 def turns(theta: Array) -> Array:
     """(…, n - 1, 3) [rad] rotation vectors of frames with Euler parameters (…, n, 4) against the one before each, in its axes."""
-    a, b = theta[..., :-1, :], theta[..., 1:, :]
-    s = np.sum(a * b, axis=-1, keepdims=True)
-    v = a[..., :1] * b[..., 1:] - b[..., :1] * a[..., 1:] - np.cross(a[..., 1:], b[..., 1:])
-    v = np.where(s < 0.0, -v, v)
-    sine = np.linalg.norm(v, axis=-1, keepdims=True)
-    return v * np.where(sine > 1e-12, 2.0 * np.arctan2(sine, np.abs(s)) / np.maximum(sine, 1e-300), 2.0)
+    return rotation_between(theta[..., :-1, :], theta[..., 1:, :])
 
 
 SOFT: Final = 0.5  # of the lowest stiffness of the machine as drawn: below it loads have taken much of it

@@ -9,6 +9,7 @@ from nivel.judge.after.subject import Equilibria
 from nivel.lazy import dataclass, replace
 from nivel.results.motion import peak
 from nivel.results.trust import Item, Threshold, Verdict, number
+from nivel.words.wording import first_of
 
 SHOWN = 6
 RESIDUAL = Threshold(
@@ -111,8 +112,7 @@ def look_at_critical(subject: Equilibria) -> Remark | None:
         else f"{kind} between the states of t = {between[0]:.9g} s and {between[1]:.9g} s"
         for kind, t, between in subject.critical
     ]
-    more = f" and {len(named) - SHOWN} more" if len(named) > SHOWN else ""
-    text = f"Critical points: {', '.join(named[:SHOWN])}{more} (amber if there are any)"
+    text = f"Critical points: {first_of(named, SHOWN)} (amber if there are any)"
     return Remark("critical", "amber", text) if named else None
 
 

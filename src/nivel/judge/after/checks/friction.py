@@ -21,6 +21,7 @@ from nivel.results.frames.contents import own_units
 from nivel.results.scales import Readable, machine_size, span
 from nivel.results.trust import Item
 from nivel.system.system import Array, System
+from nivel.words.wording import first_of
 
 # A rate below this share of the largest one of the run, and of the machine's size or a radian once in the run, is none.
 STILL = 1e-9
@@ -115,9 +116,7 @@ def resting_frictions(
         int(system.record.friction.columns[system.frictions.index(force.name), columns.COORDINATE]) for force in rubbing
     ]
     wanted = _unit(coordinate_derivatives(motion, places))
-    rows = motion.jacobian().reshape(system.machine_rows, -1, 6).copy()
-    rows[:, :, :3] *= system.size
-    rows = _unit(rows.reshape(system.machine_rows, -1))
+    rows = _unit(motion.jacobian_in_lengths())
     share = np.linalg.lstsq(rows.T, wanted.T, rcond=LEFT)[0].T
     left = wanted - share @ rows
     moves = (np.unique(places)[:, None] == places).T.astype(float) if machine.is_flexible else _unit(left)
@@ -174,9 +173,7 @@ def _dependent(run: Run, motion: MotionEquations, names: list[str], frame: int) 
     places = [int(system.record.friction.columns[k, columns.COORDINATE]) for k in own]
     wanted = coordinate_derivatives(motion, places)
     if system.machine_rows:
-        rows = motion.jacobian().reshape(system.machine_rows, -1, 6).copy()
-        rows[:, :, :3] *= system.size
-        basis = _basis(_unit(rows.reshape(system.machine_rows, -1)))
+        basis = _basis(_unit(motion.jacobian_in_lengths()))
         wanted = wanted - wanted @ basis.T @ basis
     _, size, every = np.linalg.svd(wanted.T)
     free = every[int(np.sum(size > LEFT * max(size.max(initial=0.0), 1e-300))) :]
@@ -202,9 +199,8 @@ def shared_loads(result: Readable, held: Sequence[Held]) -> tuple[Shared, ...]:
 
 def in_words(shared: Shared) -> str:
     """Who holds which coordinates, and when."""
-    when = ", ".join(f"{first:.6g} to {last:.6g} s" for first, last in shared.spans[:SHOWN])
-    more = f" and {len(shared.spans) - SHOWN} times more" if len(shared.spans) > SHOWN else ""
-    return f"{_listed(shared.holders)} hold {_listed(shared.coordinates)} at rest together (t = {when}{more})"
+    when = first_of([f"{first:.6g} to {last:.6g} s" for first, last in shared.spans], SHOWN, more="times more")
+    return f"{_listed(shared.holders)} hold {_listed(shared.coordinates)} at rest together (t = {when})"
 
 
 def still(result: Readable, coordinate: str, share: float) -> NDArray[np.bool_]:

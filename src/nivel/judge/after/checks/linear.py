@@ -12,6 +12,7 @@ from nivel.judge.after.report import Check, Need
 from nivel.judge.after.subject import Linearisation
 from nivel.lazy import dataclass, replace
 from nivel.results.trust import Item, number
+from nivel.words.wording import first_of
 
 
 @dataclass(frozen=True)
@@ -88,8 +89,7 @@ def look_at_kinks(subject: Linearisation) -> Kinked | None:
 
 def say_kinks(found: Kinked) -> Item:
     """Both slopes of each."""
-    more = f"; and {len(found.kinks) - SHOWN} more" if len(found.kinks) > SHOWN else ""
-    some = "; ".join(found.kinks[:SHOWN]) + more
+    some = first_of(found.kinks, SHOWN, "; ")
     if found.jumps:
         said = "the equations jump at this state, so that there are no linear ones whose eigenvalues describe a motion"
     else:

@@ -23,6 +23,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import TIME
 from nivel.results.motion import Motion
 from nivel.results.trust import Item, Threshold, number
+from nivel.words.wording import first_of
 
 
 def steps_of_run(run: Run) -> Steps | None:
@@ -258,17 +259,16 @@ def say_unexamined(found: Unexamined) -> Item:
     """What was not looked at, by name. The line is green: nothing is known against the result."""
     said = []
     if found.functions:
-        said.append(f"what the steps miss of {_listed(found.functions)}, which read signals that are not in the result")
+        said.append(
+            f"what the steps miss of {first_of(found.functions, NAMED)}, which read signals that are not in the result"
+        )
     if found.laws:
-        said.append(f"what {_listed(found.laws)} may do within a sixteenth of a step: Python functions have no bounds")
+        said.append(
+            f"what {first_of(found.laws, NAMED)} may do within a sixteenth of a step: Python functions have no bounds"
+        )
     if found.contacts:
-        said.append(f"whether bodies pass through each other within a step at {_listed(found.contacts)}")
+        said.append(f"whether bodies pass through each other within a step at {first_of(found.contacts, NAMED)}")
     return Item("unexamined", "green", f"Not examined: {'; '.join(said)}")
-
-
-def _listed(names: tuple[str, ...]) -> str:
-    shown = ", ".join(names[:NAMED])
-    return f"{shown} and {len(names) - NAMED} more" if len(names) > NAMED else shown
 
 
 CHECKS = (

@@ -9,6 +9,7 @@ from nivel.judge.after.report import Check
 from nivel.judge.after.subject import Curve, Led, Positions, Reach
 from nivel.lazy import dataclass
 from nivel.results.trust import Item, Threshold, Verdict, number
+from nivel.words.wording import first_of
 
 # share of the least singular value at the start below which a position is near a singular one; names and times in a sentence
 NEAR_SINGULAR, SHOWN = 1e-3, 4
@@ -60,9 +61,8 @@ def say_branches(found: Branches) -> Item:
     """Whether the positions are the only ones to which the drivers lead."""
     among = f" (among {', '.join(found.joints[:SHOWN])})" if found.joints else ""
     if found.passed:
-        some = ", ".join(f"{a:.6g} and {b:.6g} s" for a, b in found.passed[:SHOWN])
-        more = f" and {len(found.passed) - SHOWN} times more" if len(found.passed) > SHOWN else ""
-        said = f"Branches: a singular position is passed between {some}{more}{among}: the positions beyond it are one of several branches"
+        some = first_of([f"{a:.6g} and {b:.6g} s" for a, b in found.passed], SHOWN, more="times more")
+        said = f"Branches: a singular position is passed between {some}{among}: the positions beyond it are one of several branches"
         text = f"{said} that fit the drivers (amber if any is passed)"
         return Item("branches", "amber", text, time=found.passed[0][1])
     time = found.time
@@ -84,14 +84,11 @@ def look_at_histories(subject: Positions) -> Histories | None:
 
 def say_histories(found: Histories) -> Item:
     """What depends on them is wrong."""
-    more = f" and {len(found.states) - SHOWN} more" if len(found.states) > SHOWN else ""
-    some = f"{', '.join(found.states[:SHOWN])}{more}"
-    said = f"States: {some} have a history, which kinematics does not compute: they keep their initial values"
+    said = f"States: {first_of(found.states, SHOWN)} have a history, which kinematics does not compute: they keep their initial values"
     wrong = "efforts and reactions that depend on them are wrong"
     return Item("states", "amber", f"{said}, and {wrong} (green if there are none)")
 
 
-SHOWN = 4  # of what is named in a sentence
 # singular values below this share of the largest are near a singular posture
 NEAR = 1e-3
 # [m] or [m/m]: what no coordinate moves, as across the plane of an arm, has singular values of round-off all along
@@ -205,8 +202,7 @@ def say_postures(found: Postures) -> Item:
 
 
 def _listed(times: tuple[float, ...]) -> str:
-    more = f" and {len(times) - SHOWN} more" if len(times) > SHOWN else ""
-    return ", ".join(f"{each:.6g}" for each in times[:SHOWN]) + more
+    return first_of([f"{each:.6g}" for each in times], SHOWN)
 
 
 def look_at_ways(subject: Reach) -> Ways:

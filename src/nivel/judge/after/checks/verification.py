@@ -23,6 +23,7 @@ from nivel.judge.after.subject import (
 from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.trust import Item, Verdict, number
+from nivel.words.wording import first_of
 
 SHOWN = 4  # names in a sentence
 
@@ -66,7 +67,7 @@ def look_at_efforts(subject: Actuated) -> Verification:
 
 def _followed(subject: Positions | Actuated) -> tuple[tuple[str, ...], tuple[str, ...]]:
     left = not_compared(subject)
-    lacks = (f"what {listed(left)} prescribe{'s' * (len(left) == 1)}",) if left else ()
+    lacks = (f"what {first_of(left, SHOWN)} prescribe{'s' * (len(left) == 1)}",) if left else ()
     compared = len(left) < len(subject.drivers)
     return ("the functions of its drivers, evaluated apart",) if compared else (), lacks
 
@@ -135,11 +136,6 @@ def _elements(machine: MachineRecord, words: str) -> tuple[tuple[str, ...], tupl
     if not machine.beams:
         return (), ()
     return ((f"a machine with {words} elements of beams",), ()) if words else ((), ("the elements of beams",))
-
-
-def listed(names: list[str]) -> str:
-    """The first of them."""
-    return ", ".join(names[:SHOWN]) + (f" and {len(names) - SHOWN} more" if len(names) > SHOWN else "")
 
 
 VERDICTS: dict[str, Verdict] = {"done": "green", "interrupted": "amber", "failed": "red", "running": "amber"}

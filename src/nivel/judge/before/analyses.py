@@ -22,6 +22,7 @@ from nivel.machine.laws.symbols import find_in, follows_control, is_output
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.statics import StaticsSettings
 from nivel.system.beam_nodes import with_nodes
+from nivel.words.wording import first_of
 
 MOST = 1500  # velocities of full matrices
 ALL = bool  # of elements that are there
@@ -164,10 +165,11 @@ def beside_states(machine: MachineRecord, settings: StaticsSettings) -> Iterator
     names = [state.name for state in machine.states if state.rate is not None or state.every is not None]
     names += [block.name for block in machine.control if any(part.role != "signal" for part in block.parts)]
     asked = {"arc_length": settings.arc_length, "modes": settings.modes, "buckling": settings.buckling}
+    named = first_of(names, SHOWN)
     for name in (name for name, wanted in asked.items() if wanted and names):
         yield Fault.at(
             f"statics.{name}",
-            f"`{name.replace('_', '-')}` knows positions alone, and this machine has first-order states ({_named(names)}): leave it out; "
+            f"`{name.replace('_', '-')}` knows positions alone, and this machine has first-order states ({named}): leave it out; "
             f"equilibria by load steps, and whether small motions about them grow, are found with the states",
         )
 
@@ -182,12 +184,12 @@ def at_rest(machine: MachineRecord) -> tuple[str, ...]:
     ]
     out = []
     if damping:
-        out.append(f"dampers exert no force at rest ({_named(damping)})")
+        out.append(f"dampers exert no force at rest ({first_of(damping, SHOWN)})")
     if rubbing:
-        out.append(f"coulomb friction depends on speed and exerts no force at rest ({_named(rubbing)})")
+        out.append(f"coulomb friction depends on speed and exerts no force at rest ({first_of(rubbing, SHOWN)})")
     touching = [force.name for force in machine.forces if isinstance(force, Contact) and force.friction]
     if touching:
-        out.append(f"friction of contacts exerts no force at rest ({_named(touching)})")
+        out.append(f"friction of contacts exerts no force at rest ({first_of(touching, SHOWN)})")
     if machine.events:
         out.append("events are ignored")
     return tuple(out)
@@ -195,7 +197,3 @@ def at_rest(machine: MachineRecord) -> tuple[str, ...]:
 
 DAMPING = ("damping", "rotational_damping", "viscous")
 SHOWN = 4
-
-
-def _named(names: list[str]) -> str:
-    return ", ".join(names[:SHOWN]) + (f" and {len(names) - SHOWN} more" if len(names) > SHOWN else "")

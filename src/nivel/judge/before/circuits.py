@@ -103,6 +103,11 @@ def circuit_remarks(components: tuple[Component, ...]) -> Said:
         yield from _of_load_sensing(circuit, each)
 
 
+def _of(component: Component, key: str, message: str) -> Finding:
+    """What fits badly at a component, or at this key of it."""
+    return Finding(f"hydraulics.{component.name}.{key}".removesuffix("."), message)
+
+
 def _swapped(a: str, b: str, component: Component) -> str:
     return f"{{{a}: {component.ports[b]}, {b}: {component.ports[a]}}}"
 
@@ -113,32 +118,28 @@ def _reversed_pump(circuit: Circuit, each: Component) -> Said:
     a, b = each.ports["A"], each.ports["B"]
     if b in circuit.low and a not in circuit.low:
         what = f"the pump is reversed: it takes fluid from `{a}` and delivers it into the tank `{b}`"
-        yield Finding(
-            f"hydraulics.{each.name}", f"{what}; A is its suction side: write `ports: {_swapped('A', 'B', each)}`"
-        )
+        yield _of(each, "", f"{what}; A is its suction side: write `ports: {_swapped('A', 'B', each)}`")
     elif a in circuit.low:
         key = "speed" if isinstance(each, Pump) else "flow"
         given = each.speed if isinstance(each, Pump) else each.flow
         if isinstance(given, float | int) and given < 0.0:
-            yield Finding(
-                f"hydraulics.{each.name}.{key}",
-                f"the pump turns backwards and delivers into the tank `{a}`: write `{key}` without a minus",
+            yield _of(
+                each, key, f"the pump turns backwards and delivers into the tank `{a}`: write `{key}` without a minus"
             )
         if isinstance(given, float | int) and given == 0.0:
-            yield Finding(
-                f"hydraulics.{each.name}.{key}",
+            yield _of(
+                each,
+                key,
                 f"the pump stands still; write for example `{key}: {'1500 rpm' if key == 'speed' else '40 L/min'}`",
             )
 
 
 def _reversed_valve(circuit: Circuit, each: Component) -> Said:
-    ports, name = each.ports, each.name
+    ports = each.ports
     if isinstance(each, DirectionalValve | Section | SpoolValve) and "P" in ports and "T" in ports:
         if ports["P"] in circuit.low and ports["T"] not in circuit.low:
             what = f"P is connected to the tank `{ports['P']}` and T to `{ports['T']}`"
-            yield Finding(
-                f"hydraulics.{name}", f"the valve is reversed: {what}; write {_swapped('P', 'T', each)} in its `ports`"
-            )
+            yield _of(each, "", f"the valve is reversed: {what}; write {_swapped('P', 'T', each)} in its `ports`")
         tank = next((x for x in circuit.components if x.name == ports["T"]), None)
         if (
             isinstance(tank, Tank)
@@ -147,31 +148,23 @@ def _reversed_valve(circuit: Circuit, each: Component) -> Said:
             and tank.fluid is None
         ):
             what = f"T leads to `{tank.name}`, which has {tank.pressure / BAR:.4g} bar"
-            yield Finding(
-                f"hydraulics.{name}",
-                f"{what}; a return line has a tank of low pressure: write `{{type: tank, pressure: 2 bar}}`",
+            yield _of(
+                each, "", f"{what}; a return line has a tank of low pressure: write `{{type: tank, pressure: 2 bar}}`"
             )
     if isinstance(each, ReliefValve) and ports["P"] in circuit.low and ports["T"] not in circuit.low:
         what = f"it would open from the tank `{ports['P']}` to `{ports['T']}`"
-        yield Finding(
-            f"hydraulics.{name}", f"the relief valve is reversed: {what}; write `ports: {_swapped('P', 'T', each)}`"
-        )
+        yield _of(each, "", f"the relief valve is reversed: {what}; write `ports: {_swapped('P', 'T', each)}`")
     if isinstance(each, CheckValve) and "X" not in ports and ports["B"] in circuit.pumped:
         behind = {*circuit.low, *circuit.pumped}
         what = f"it lets fluid pass from `{ports['A']}` to the pump line `{ports['B']}` alone"
         if ports["A"] not in behind:
-            yield Finding(
-                f"hydraulics.{name}", f"the check valve is reversed: {what}; write `ports: {_swapped('A', 'B', each)}`"
-            )
+            yield _of(each, "", f"the check valve is reversed: {what}; write `ports: {_swapped('A', 'B', each)}`")
     if isinstance(each, CounterbalanceValve) and ports["V"] in circuit.chambers and ports["L"] not in circuit.chambers:
         what = f"L is the side of the load, and `{ports['V']}` at V is a chamber"
-        yield Finding(
-            f"hydraulics.{name}", f"the valve is reversed: {what}; write {_swapped('L', 'V', each)} in its `ports`"
-        )
+        yield _of(each, "", f"the valve is reversed: {what}; write {_swapped('L', 'V', each)} in its `ports`")
     if isinstance(each, CounterbalanceValve) and ports["X"] == ports["L"]:
-        yield Finding(
-            f"hydraulics.{name}",
-            "its pilot X is its own load L; connect X to the other side of the actuator, such as `X: lift.B`",
+        yield _of(
+            each, "", "its pilot X is its own load L; connect X to the other side of the actuator, such as `X: lift.B`"
         )
 
 
@@ -183,7 +176,7 @@ def _leads_nowhere(circuit: Circuit, each: Component) -> Said:
         if isinstance(other, Actuator):
             return
         what = f"`{other.name}` alone is connected to the volume `{each.name}`, which leads nowhere"
-        yield Finding(f"hydraulics.{each.name}", f"{what}; name `{each.name}` in the `ports` of a second component")
+        yield _of(each, "", f"{what}; name `{each.name}` in the `ports` of a second component")
 
 
 def _against_relief(circuit: Circuit, each: Component) -> Said:
@@ -195,30 +188,34 @@ def _against_relief(circuit: Circuit, each: Component) -> Said:
         if given > 1.05 * passes > 0.0:
             rated = f"flow: {math.ceil(given / LITRE_PER_MINUTE * 1.2)} L/min, pressure_drop: {setting / BAR:.4g} bar"
             what = f"it passes {passes / LITRE_PER_MINUTE:.3g} L/min where it is wholly open"
-            yield Finding(
-                f"hydraulics.{relief.name}.flow",
+            yield _of(
+                relief,
+                "flow",
                 f"{what}, and `{each.name}` delivers {given / LITRE_PER_MINUTE:.3g} L/min: the pressure rises beyond its "
                 f"setting; write for example `{rated}`",
             )
         if isinstance(each, Pump) and each.cut_off is not None and each.cut_off >= setting:
-            yield Finding(
-                f"hydraulics.{each.name}.cut_off",
+            yield _of(
+                each,
+                "cut_off",
                 f"`{relief.name}` opens at {setting / BAR:.4g} bar, before the `cut_off` of {each.cut_off / BAR:.4g} bar; "
                 f"write for example `cut_off: {0.9 * setting / BAR:.4g} bar`",
             )
     if isinstance(each, Accumulator) and each.ports["A"] in circuit.settings:
         relief, setting = circuit.settings[each.ports["A"]]
         if each.precharge >= setting:
-            yield Finding(
-                f"hydraulics.{each.name}.precharge",
+            yield _of(
+                each,
+                "precharge",
                 f"`{relief.name}` opens at {setting / BAR:.4g} bar, below the precharge of {each.precharge / BAR:.4g} bar: it stays "
                 f"empty; write for example `precharge: {0.6 * setting / BAR:.4g} bar`",
             )
     if isinstance(each, ReducingValve | PilotReducingValve) and each.ports["P"] in circuit.settings:
         relief, setting = circuit.settings[each.ports["P"]]
         if isinstance(each.pressure, float | int) and each.pressure >= setting:
-            yield Finding(
-                f"hydraulics.{each.name}.pressure",
+            yield _of(
+                each,
+                "pressure",
                 f"`{relief.name}` keeps P below {setting / BAR:.4g} bar, and it would reduce to {each.pressure / BAR:.4g} bar: it is "
                 f"always open; write for example `pressure: {0.5 * setting / BAR:.4g} bar`",
             )
@@ -235,8 +232,9 @@ def _flow_of(each: Pump | FlowSource) -> float:
 def _of_load_sensing(circuit: Circuit, each: Component) -> Said:
     if isinstance(each, LoadSensing):
         if not any(each.name in other.ports.values() for other in circuit.components):
-            yield Finding(
-                f"hydraulics.{each.name}",
+            yield _of(
+                each,
+                "",
                 f"nothing reads this signal; name it in the `ports` of a pump or a compensator: `LS: {each.name}`",
             )
         heard = set(each.valves)
@@ -249,7 +247,7 @@ def _of_load_sensing(circuit: Circuit, each: Component) -> Said:
             if valve.ports.get("P") in lines | behind and {"A", "B", "T"} <= {*valve.ports}:
                 said = ", ".join([*each.valves, valve.name])
                 what = f"takes from the line of the load-sensing pump, and `{each.name}` does not know its load"
-                yield Finding(f"hydraulics.{valve.name}", f"it {what}; write `valves: [{said}]` there")
+                yield _of(valve, "", f"it {what}; write `valves: [{said}]` there")
     if isinstance(each, Pump) and each.margin is not None:
         for other in circuit.components:
             holds = isinstance(other, Compensator) or (isinstance(other, Section) and other.compensation == "pre")
@@ -257,8 +255,9 @@ def _of_load_sensing(circuit: Circuit, each: Component) -> Said:
                 continue
             margin = other.margin  # type: ignore[attr-defined]
             if isinstance(margin, float | int) and margin >= each.margin:
-                yield Finding(
-                    f"hydraulics.{other.name}.margin",
+                yield _of(
+                    other,
+                    "margin",
                     f"the pump stands {each.margin / BAR:.4g} bar above LS, and the compensator would hold {margin / BAR:.4g} bar of "
                     f"it: it is always open; write for example `margin: {0.4 * each.margin / BAR:.3g} bar`",
                 )
@@ -281,7 +280,7 @@ def _of_commands(machine: MachineRecord) -> Said:
         if FAR_BEYOND < largest < math.inf:
             text = command.text if isinstance(command, Expression) else "…"
             message = f"a command of 1 is the full one, and this reaches {largest:.4g}: percent? Write `command: ({text})/100`"
-            yield Finding(f"hydraulics.{component.name}.command", message)
+            yield _of(component, "command", message)
 
 
 def _largest_of(command: Any, ranges: Mapping[str, tuple[float, float]], duration: float) -> float:
@@ -312,7 +311,7 @@ def _of_volumes(machine: MachineRecord) -> Said:
                 f"`displacement` is a volume per angle: `{size}` counts as {size}/rad, which is {per_turn}; catalogues state it per turn: "
                 f"write `displacement: {size}/rev`, or `{size}/rad` where that is meant"
             )
-            yield Finding(f"hydraulics.{component.name}.displacement", message)
+            yield _of(component, "displacement", message)
 
 
 def _unfillable(machine: MachineRecord) -> Said:
@@ -328,7 +327,7 @@ def _unfillable(machine: MachineRecord) -> Said:
         which = "it" if isinstance(maker, Volume) else f"its chamber {node.rpartition('.')[2]}"
         advice = f"name `{node}` in the `ports` of a component through which fluid comes to it"
         message = f"nothing can flow into {which}, which stays as full as it is at the start; {advice}"
-        yield Finding(f"hydraulics.{maker.name}", message)
+        yield _of(maker, "", message)
 
 
 def _is_filled_by_hand(maker: Volume | Actuator, node: str) -> bool:

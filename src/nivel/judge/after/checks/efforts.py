@@ -22,6 +22,7 @@ from nivel.machine.units.tree import ExpressionError
 from nivel.results.trust import Item, Verdict, number
 from nivel.system.laws.integrated import integrated
 from nivel.system.system import Array
+from nivel.words.wording import first_of
 
 # [lengths of the machine, rad] by which a driver may be missed: green, and no worse than amber
 GREEN, AMBER = 1e-9, 1e-7
@@ -217,10 +218,7 @@ def look_at_states(subject: Actuated) -> Held | None:
 
 def say_states(found: Held) -> Item:
     """What depends on them is wrong."""
-    more = f" and {len(found.states) - SHOWN} more" if len(found.states) > SHOWN else ""
-    said = (
-        f"States: the motion has no history of {', '.join(found.states[:SHOWN])}{more}: they keep their initial values"
-    )
+    said = f"States: the motion has no history of {first_of(found.states, SHOWN)}: they keep their initial values"
     wrong = "and what forces make of them is not that of the motion; give the result of a run"
     return Item("states", "amber", f"{said}, {wrong} (green if there are none)")
 

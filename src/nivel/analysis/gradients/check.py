@@ -87,11 +87,10 @@ def _differences(moved: Moved, k: int, steps: Sequence[float]) -> list[list[_Dif
     by_step = [_difference(moved, k, step) for step in steps]
     if by_step[-1] is None:
         by_step[-1] = _difference(moved, k, max(LEAST * steps[0], 0.25 * steps[-1]))
-    return [[each[number] for each in by_step if each is not None] for number in range(max(map(_count, by_step)))]
-
-
-def _count(differences: Sequence[_Difference] | None) -> int:
-    return len(differences or ())
+    return [
+        [each[number] for each in by_step if each is not None]
+        for number in range(max(len(each or ()) for each in by_step))
+    ]
 
 
 def _difference(moved: Moved, k: int, step: float) -> list[_Difference] | None:

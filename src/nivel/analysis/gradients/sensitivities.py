@@ -11,7 +11,6 @@ import numpy as np
 from nivel.analysis.gradients.check import worst
 from nivel.analysis.gradients.gradient import HEADLINES, Varied, checked_slopes, refuse_without_slopes
 from nivel.analysis.gradients.outputs import Array, Parameter, outputs_of, parameters_of
-from nivel.analysis.gradients.slopes import Slopes
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.progress.log import Listener
 from nivel.errors import ModelError
@@ -61,7 +60,9 @@ def with_sensitivities(
     }
     headline = HEADLINES[worst(lights)]
     attributes = {**result.attributes, "sensitivities": json.dumps(told), "sensitivities_headline": headline}
-    frames = [_frames_of(result, layout), *(_scaled(slopes, k) for k in range(len(parameters)))]
+    # for a change of each by one of its units
+    along = (slopes.lanes(k) / each.scale for k, each in enumerate(slopes.parameters))
+    frames = [_frames_of(result, layout), *along]
     return Result(MemoryContents(Header(_with_slopes(layout, parameters), attributes), np.hstack(frames), attributes))
 
 
@@ -72,11 +73,6 @@ def _frames_of(result: Result, layout: FrameLayout) -> Array:
         if variable.name in result.variables:
             frames[:, variable.columns] = result.array(variable.name).reshape(len(frames), -1)
     return frames
-
-
-def _scaled(slopes: Slopes, k: int) -> Array:
-    """Slopes (n, width) along parameter k, for a change by one of its units."""
-    return slopes.lanes(k) / slopes.parameters[k].scale
 
 
 def _with_slopes(layout: FrameLayout, parameters: Sequence[Parameter]) -> FrameLayout:

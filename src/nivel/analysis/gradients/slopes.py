@@ -9,7 +9,7 @@ the machine cannot be built so far away, or is not smooth there, the step is nar
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import partial
 from typing import Any, NamedTuple
@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from nivel.analysis.gradients.outputs import Array, Moving, Output, Parameter, Reduce, Reduced, value_of
 from nivel.analysis.plan.compilation import build
 from nivel.analysis.plan.settings import RunSettings
-from nivel.analysis.preparation.memory import MachineMemory, UnlikeError
+from nivel.analysis.preparation.memory import MachineMemory, UnlikeError, arrays_of
 from nivel.analysis.preparation.parameters import Sample, Unfit, UnfitError, numbers_of
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.log import Listener
@@ -81,16 +81,6 @@ def _wholly(addresses: NDArray[np.uint64]) -> NDArray[np.uint64]:
     return np.array([FAMILIES[int(each)].whole.address if each else 0 for each in addresses], dtype=np.uint64)
 
 
-def leaves(record: Any, path: str = "") -> Iterator[tuple[str, NDArray[Any]]]:
-    """The arrays of a record with their names, in its order."""
-    for name, value in zip(record._fields, record, strict=True):
-        own = f"{path}.{name}" if path else name
-        if isinstance(value, tuple):
-            yield from leaves(value, own)
-        else:
-            yield own, value
-
-
 # parameters of the machines beside are away from their own values by these shares of their scales, and twice as far: wide, narrow
 WIDE, NARROW = 1e-3, 1e-5
 # Differences over a step and over two are the same but for this share of the largest where a record is smooth; and what is round-off of
@@ -134,9 +124,9 @@ def seeds_of(loop: Loop, parameters: Sequence[Parameter], beside: Callable[[Para
 
 def seed(whole: WholeLoop, seeds: Sequence[Seeds]) -> None:
     """Give the numbers of both records their slopes, a lane for each of LANES seeds at most."""
-    twins = [*leaves(whole.machine), *leaves(whole.run)]
+    twins = [*arrays_of(whole.machine), *arrays_of(whole.run)]
     for lane, slopes in enumerate(seeds):
-        for (_, dual), slope in zip(twins, slopes, strict=True):
+        for dual, slope in zip(twins, slopes, strict=True):
             if dual.dtype == DUAL:
                 dual["slopes"][..., lane] = slope
 

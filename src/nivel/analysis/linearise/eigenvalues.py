@@ -73,7 +73,8 @@ def graded(reduction: Reduction, space: StateSpace, signs: Array) -> Graded | No
     A[np.arange(w), m + np.arange(w)] = 1.0
     A[m : m + h], noise[m : m + h] = _accelerations(reduction, T, shapes)
     # vibrations have no symmetrical stiffness in common
-    A[m : m + h, :h] -= _off_diagonal(symmetric(A[m : m + h, :h]))
+    stiffness = symmetric(A[m : m + h, :h])
+    A[m : m + h, :h] -= stiffness - np.diag(np.diag(stiffness))
     return Graded(A, noise, more[:, None] * T)
 
 
@@ -139,10 +140,6 @@ def _pushed(reduction: Reduction, T: Array, shapes: Array) -> tuple[Array, Array
     noise = np.abs(shapes).T @ (reduction.size_of("r", *size)[free] + np.abs(M) @ by_rows)
     noise = noise + np.abs(inner) @ (np.abs(reduction.shifted(size[1])) + by_rows)[reduction.moving]
     return forces, rates, ROUND_OFF * noise
-
-
-def _off_diagonal(matrix: Array) -> Array:
-    return matrix - np.diag(np.diag(matrix))
 
 
 # entries below this share of the largest of their row are round-off

@@ -17,7 +17,7 @@ from nivel.analysis.linearise.ports import Catalogue, Input, Opened
 from nivel.analysis.linearise.pressures import PressureStates, pressure_states, seen, transformation, transformed
 from nivel.analysis.linearise.reduction import Reduction, StateSpace, velocity_names
 from nivel.analysis.linearise.rotation import rotating
-from nivel.analysis.linearise.sampled import held_values, laws_of_samples, sampled_model, samples_of, unrest
+from nivel.analysis.linearise.sampled import at_rest, held_values, sampled_model, samples_of, unrest
 from nivel.analysis.linearise.validity import judged, signed
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.attributes import run_attributes
@@ -77,7 +77,9 @@ def linear_model(
     shown = [*outputs, *(catalogue.outputs[name] for name in pressures.outputs)]
     linear = judged(catalogue, moment, instant, inputs, shown)
     reduction, places, rates = linear.reduction, linear.places, linear.rates
-    whole, of_pressures = _split(linear.space, len(outputs))
+    count = len(outputs)
+    whole = replace(linear.space, C=linear.space.C[:count], D=linear.space.D[:count])
+    of_pressures = linear.space.C[count:]
     every, moving = _states(instant, reduction), len(places) + len(rates)
     if settings.inputs is None:
         inputs, whole = _with_samples(whole, inputs, instant, moving)
@@ -180,11 +182,6 @@ def _states(instant: Instant, reduction: Reduction) -> _States:
     )
 
 
-def _split(space: StateSpace, count: int) -> tuple[StateSpace, Array]:
-    """The equations with the first `count` outputs, and the rows of C of the others."""
-    return StateSpace(space.A, space.B, space.C[:count], space.D[:count]), space.C[count:]
-
-
 def _with_samples(
     space: StateSpace, inputs: Sequence[Input], instant: Instant, moving: int
 ) -> tuple[list[Input], StateSpace]:
@@ -252,7 +249,7 @@ def _sampled(
         return None
     own = list(dict.fromkeys(each.state for each in samples))
     order = np.concatenate([kept, moving + np.array(own, dtype=np.intp)])
-    laws = laws_of_samples(instant, lambda: signed(reduction.evaluated_again().state_space(), signs).A)
+    laws = at_rest(instant, lambda: signed(reduction.evaluated_again().state_space(), signs).A)
     F = np.eye(len(whole.A))
     F[moving + np.array(own)] += laws[moving + np.array(own)]
     A, count = whole.A[np.ix_(order, order)], len(kept)

@@ -10,7 +10,7 @@ A loop is opened where the machine reads a sampled value: a copy that only the m
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import lcm
 from typing import Any, Final
@@ -19,7 +19,6 @@ import numpy as np
 from scipy.linalg import eig, expm
 
 from nivel.analysis.assembly.instant import Instant
-from nivel.analysis.linearise.eigenvalues import Complex
 from nivel.analysis.linearise.validity import BALANCE
 from nivel.errors import Fault, ModelError
 from nivel.kernels.record.record import NONE
@@ -66,7 +65,7 @@ def held_values(machine: MachineRecord, instant: Instant) -> set[int]:
 def unrest(instant: Instant, samples: Sequence[Sample], held: set[int]) -> list[str]:
     """Sampled values that the next sample would change, in sentences."""
     facts, out = instant.system.states, []
-    change = _at_rest(instant, lambda: instant.value()[instant.n :][: instant.state_count])
+    change = at_rest(instant, lambda: instant.value()[instant.n :][: instant.state_count])
     for k in dict.fromkeys(each.state for each in samples):
         if k not in held and abs(change[k]) > BALANCE * (facts[k].scale or 1.0):
             name = facts[k].name
@@ -74,19 +73,15 @@ def unrest(instant: Instant, samples: Sequence[Sample], held: set[int]) -> list[
     return out
 
 
-def _at_rest(instant: Instant, find: Callable[[], Array]) -> Array:
-    """What `find` gives where the rates of sampled states are what a sample would change them by."""
+def at_rest(instant: Instant, find: Callable[[], Array]) -> Array:
+    """What `find` gives where the rates of sampled states are what a sample would change them by; of a matrix A, their rows are derivatives
+    of that."""
     flag = instant.record.sampled.at_rest
     flag[0] = 1
     try:
         return find()
     finally:
         flag[0] = 0
-
-
-def laws_of_samples(instant: Instant, find: Callable[[], Array]) -> Array:
-    """A (n, n) of the equations that `find` makes, whose rows of sampled states are derivatives of what a sample changes them by."""
-    return _at_rest(instant, find)
 
 
 def sampled_model(
@@ -111,7 +106,8 @@ def sampled_model(
     kept = np.flatnonzero(np.any(Z, axis=0) | (np.arange(len(A)) < len(A) - len({each.state for each in samples})))
     Z, turned = Z[np.ix_(kept, kept)], (T * scale)[np.ix_(kept, kept)]
     transition = turned @ Z @ np.linalg.inv(turned)
-    values, left, right = _eigen(Z)
+    found: Any = eig(Z, left=True, right=True)
+    values, left, right = found
     order = np.lexsort((-values.imag, -np.round(np.abs(values), 12)))
     values, left, right = values[order], left[:, order], right[:, order]
     loops, remarks = [], []
@@ -134,11 +130,6 @@ def sampled_model(
     )
 
 
-def _eigen(Z: Array) -> tuple[Complex, Complex, Complex]:
-    found: Any = eig(Z, left=True, right=True)
-    return found[0], found[1], found[2]
-
-
 def _instants(samples: Sequence[Sample]) -> tuple[Fraction, list[tuple[Fraction, list[Sample]]]]:
     """The common period of all samples, and what is due at each instant of it."""
     periods = {each.period for each in samples}
@@ -158,14 +149,10 @@ def _instants(samples: Sequence[Sample]) -> tuple[Fraction, list[tuple[Fraction,
 def _over_a_period(A: Array, F: Array, period: Fraction, instants: list[tuple[Fraction, list[Sample]]]) -> Array:
     """The change of all states from before the first instant to before it a period later."""
     Z = np.eye(len(A))
-    for (t, due), after in zip(instants, _ends(period, instants), strict=True):
+    ends = [*(t for t, _ in instants[1:]), period + instants[0][0]]
+    for (t, due), after in zip(instants, ends, strict=True):
         Z = expm(A * float(after - t)) @ _jump(Z, F, due)
     return Z
-
-
-def _ends(period: Fraction, instants: list[tuple[Fraction, list[Sample]]]) -> Iterator[Fraction]:
-    yield from (t for t, _ in instants[1:])
-    yield period + instants[0][0]
 
 
 def _jump(Z: Array, F: Array, due: Sequence[Sample]) -> Array:

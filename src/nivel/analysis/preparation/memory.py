@@ -134,6 +134,15 @@ def leaves(record: Any, name: str = "") -> Iterator[Leaf]:
         yield Leaf(whole, part, role, workspace, field in MIXED.get(type(record), "").split(), scale)
 
 
+def arrays_of(record: Any) -> Iterator[NDArray[Any]]:
+    """The same without what they are; also of records on dual numbers."""
+    for part in record:
+        if isinstance(part, tuple):
+            yield from arrays_of(part)
+        else:
+            yield part
+
+
 @cache
 def _roles(record_class: Any) -> Mapping[str, Role]:
     """Roles of the arrays of a record by their fields."""

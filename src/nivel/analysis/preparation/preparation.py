@@ -95,23 +95,21 @@ class Prepared:
         """The same, not yet run, with records of its own, for a run beside it; None where records point to each other or to units."""
         if self.motion.twin is not None or self.motion.system.units:
             return None
-        own = copied(_Records(self.motion.system.record, self.absolute.system.record))
-        motion, absolute = (
-            replace(each, system=replace(each.system, record=record))
-            for each, record in zip((self.motion, self.absolute), own, strict=True)
-        )
-        return replace(self, motion=motion, absolute=absolute)
+        return self._with(copied(_Records(self.motion.system.record, self.absolute.system.record)))
 
     def in_one_piece(self) -> tuple[Prepared, NDArray[np.uint8] | None]:
         """The same with its records in one piece of memory, and that piece; as it is, with none, where records point to each other."""
         if self.motion.twin is not None:
             return self, None
         own, piece = in_one_piece(_Records(self.motion.system.record, self.absolute.system.record))
+        return self._with(own), piece
+
+    def _with(self, records: _Records) -> Prepared:
         motion, absolute = (
             replace(each, system=replace(each.system, record=record))
-            for each, record in zip((self.motion, self.absolute), own, strict=True)
+            for each, record in zip((self.motion, self.absolute), records, strict=True)
         )
-        return replace(self, motion=motion, absolute=absolute), piece
+        return replace(self, motion=motion, absolute=absolute)
 
     @property
     def guards_circuits(self) -> bool:

@@ -113,14 +113,12 @@ def _at(prepared: Prepared, y: Array, t: float) -> Fastest | None:
     return found
 
 
-def _touching(machine: MachineRecord) -> list[Contact | Contacts | Stop]:
-    return [each for each in machine.forces if isinstance(each, Contact | Contacts | Stop)]
-
-
 def _of_contacts(machine: MachineRecord) -> Iterator[Rate]:
     """Of contacts hit by some times the weight of what touches, of their friction near rest, and of end stops."""
     gravity = float(np.linalg.norm(machine.gravity)) or STANDARD_GRAVITY
-    for each in _touching(machine):
+    for each in machine.forces:
+        if not isinstance(each, Contact | Contacts | Stop):
+            continue
         kind = "end stop" if isinstance(each, Stop) else "contact"
         mass = _mass_at(machine, each)
         stiffness = tangent_stiffness(machine, each, HIT * mass * gravity)

@@ -19,6 +19,7 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.curves.functions import LawCurve, SideOf, Varying, varying
 from nivel.analysis.curves.missed_impulse import BEYOND, beyond_samples, sampled_densely
 from nivel.analysis.curves.path import Path, Steps, as_seen, path_of
+from nivel.analysis.preparation.memory import arrays_of
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import DONE_STEPS, EVENTS, FRAMES, HORIZON, INTERVAL, TIME, Run
@@ -44,15 +45,10 @@ MOST_STEPS, SHORTEST = 200_000, 1e-12
 
 def remembered(run: Run, motion: MotionEquations) -> list[NDArray[Any]]:
     """Every array of the run and of the record but the buffer of frames and the addresses of machine code."""
-    twin = () if motion.twin is None else _arrays(motion.twin.record)
+    twin = () if motion.twin is None else arrays_of(motion.twin.record)
     own = [array for name, array in run._asdict().items() if name != "frames"]
-    every = [*own, *_arrays(motion.system.record), *twin]
+    every = [*own, *arrays_of(motion.system.record), *twin]
     return [array for array in every if array.size and array.dtype != np.uint64]
-
-
-def _arrays(record: Any) -> list[NDArray[Any]]:
-    """All arrays of a record of records."""
-    return [record] if isinstance(record, np.ndarray) else [array for field in record for array in _arrays(field)]
 
 
 class NarrowFeatures:

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from math import isfinite
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,9 +51,6 @@ from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.words.arguments import plain
 from nivel.words.wording import shown, unknown_word
-
-if TYPE_CHECKING:
-    from nivel.system.signals.units import Unit
 
 ENDLESS: Final = 2**62  # steps
 NOTHING: Final = np.zeros((0, 0))
@@ -118,25 +115,26 @@ class Simulation:
         self._plan, self._settings = plan, plan.settings
         self._prepared: Prepared
         self._prepared, piece = prepared.in_one_piece()
+        self._motion = motion = self._prepared.motion
+        self._system = system = motion.system
         loop, own = _endless(self._prepared, plan, whole=piece is not None)
         self._run: Run = loop.history.record
         self._advance = BoundEntry(advance, loop.addresses, keep=loop)
         self._correct = loop.correct
-        self._kept = (
-            _remembered(self._prepared, self._run)
-            if piece is None or own is None
-            else [piece, own, *_of_units(self._prepared)]
-        )
+        kept = remembered(self._run, motion) if piece is None or own is None else [piece, own]
+        # what is remembered of units but their own memory
+        every = [array for unit in system.units for array in unit.arrays]
+        self._kept = [*kept, *(array for array in every if array.size and array.dtype != np.uint64)]
         self._counter, self._clock = self._run.counter.data, self._run.clock.data  # quicker to read than arrays
         self._step = float(plan.settings.step)
-        self._states = _places_of_states(self._prepared, self._run)
-        inputs, functions = plan.machine.inputs, self._prepared.motion.system.input_functions
-        self._inputs = {each.name: function for each, function in zip(inputs, functions, strict=True)}
+        names = [fact.name for fact in system.states]
+        self._states = {name: len(self._run.y) - 2 - len(names) + k for k, name in enumerate(names)}  # places in y
+        inputs = plan.machine.inputs
+        self._inputs = {each.name: place for each, place in zip(inputs, system.input_functions, strict=True)}
         self._ranges = {each.name: each.range for each in inputs}
         self._quick_ranges = {
             name: (max(low, -LARGEST), min(high, LARGEST)) for name, (low, high) in self._ranges.items()
         }
-        system = self._prepared.motion.system
         # quicker to read and write than arrays
         self._kind: Any
         self._value: Any
@@ -145,11 +143,10 @@ class Simulation:
         self._previous: Any
         self._y, self._previous = self._run.y.data, self._run.previous.data
         self._feeds_back = bool(system.record.control.stabilise[:2].any())
-        layout = self._prepared.motion.system.layout
+        layout = system.layout
         self._loads = SharedLoads.of(self._prepared) if are_open(self._prepared) else None
         self._header = Header(layout, run_attributes(plan.machine, source, self._prepared, plan.settings, plan.reason))
         self._frame = np.zeros((1, layout.width))
-        motion = self._prepared.motion
         address = int(motion.handle.address)
         self._evaluate = BoundEntry(motion.kernels.evaluate, (address, self._run.y, self._run.rate), keep=motion)
         self._write = BoundEntry(observe, (address, self._run.y, self._frame[0]), keep=motion)
@@ -223,7 +220,7 @@ class Simulation:
             counter[of_run.BUDGET] = target - counter[of_run.DONE_STEPS]
             status = self._advance()
         if counter[of_run.EVENTS]:
-            self._events += taken_events(self._run, self._prepared.motion.system.events)
+            self._events += taken_events(self._run, self._system.events)
         if status not in (BUDGET_SPENT, DONE):
             self._fail(status)
 
@@ -279,7 +276,7 @@ class Simulation:
         if self._observed != self._clock[of_run.TIME]:
             self._observe()
         posture = {name: self._view(name) for name in ("position", "orientation", "velocity", "angular_velocity")}
-        system, y = self._prepared.motion.system, self._run.y
+        system, y = self._system, self._run.y
         reference, states = system.record.coordinates.reference, y[len(y) - len(system.start_of_states) :]
         reference = self._measured(reference)
         placed = self._placing.placed(self.time, posture, reference, states.copy(), wanted)
@@ -299,7 +296,7 @@ class Simulation:
     def _measured(self, reference: NDArray[np.float64]) -> NDArray[np.float64]:
         """Reference of the measured coordinates; of joints those that the frame shows, with all their turns."""
         out = reference.copy()
-        out[self._prepared.motion.system.record.joints.coordinate] = self._view("joint_coordinate")
+        out[self._system.record.joints.coordinate] = self._view("joint_coordinate")
         return out
 
     @cached_property
@@ -333,9 +330,8 @@ class Simulation:
             self._fail(status)
         values = self._run.event_values
         if values.shape[1]:
-            motion = self._prepared.motion
-            watch.code(motion.handle.address, 0, time)
-            values[[of_run.BEFORE, of_run.AFTER]] = motion.system.record.watched.value[: values.shape[1]]
+            watch.code(self._motion.handle.address, 0, time)
+            values[[of_run.BEFORE, of_run.AFTER]] = self._system.record.watched.value[: values.shape[1]]
             values[of_run.SIDE] = np.sign(values[of_run.BEFORE])
         self._observe()
 
@@ -404,7 +400,7 @@ class Simulation:
     @property
     def coordinates(self) -> tuple[str, ...]:
         """The joint coordinates, which `place` sets."""
-        return tuple(self._prepared.motion.system.layout.coordinates["joint_coordinate"])
+        return tuple(self._system.layout.coordinates["joint_coordinate"])
 
     @property
     def scene(self) -> dict[str, Any]:
@@ -415,10 +411,10 @@ class Simulation:
         """Write the frame of the present state, with accelerations and reactions free of Baumgarte's feedback."""
         time = self._clock[of_run.TIME]
         if self._feeds_back:
-            feedback = self._prepared.motion.system.record.control.stabilise
+            feedback = self._system.record.control.stabilise
             kept = feedback.copy()
             feedback[:2] = 0.0
-            self._prepared.motion.evaluate(time, self._run.y)
+            self._motion.evaluate(time, self._run.y)
             feedback[:] = kept
         self._numbers[0] = self._write.number.value = time
         self._write()
@@ -435,7 +431,7 @@ class Simulation:
     def stopped_by(self) -> str:
         """Name of the event that ended the simulation; empty while it can go on."""
         number = self._counter[of_run.STOPPED]
-        return self._prepared.motion.system.events[number - 1] if number else ""
+        return self._system.events[number - 1] if number else ""
 
     def result(self) -> Result:
         """The frames so far as a result, one every `output_interval` from the start; for simulations started with ``record=True``."""
@@ -460,7 +456,7 @@ class Simulation:
         """This moment, to be restored or saved."""
         self._take_frames()
         arrays = tuple(array.copy() for array in self._kept)
-        units = tuple(unit.state() for unit in self._units)
+        units = tuple(unit.state() for unit in self._system.units)
         return Snapshot(self.time, self._digest, arrays, units, self._structure)
 
     def restore(self, state: Snapshot) -> None:
@@ -488,7 +484,7 @@ class Simulation:
             array[...] = kept
         for arguments, places, own in addresses:
             arguments[places] = own
-        for unit, content in zip(self._units, state.units, strict=True):
+        for unit, content in zip(self._system.units, state.units, strict=True):
             unit.restore(content)
         self._counter[of_run.FRAMES] = 0
         if self._events:
@@ -501,7 +497,7 @@ class Simulation:
         if self._recorded:
             self._memory.forget_after(state.time)
         carry_over(self._kept, state.arrays, self._prepared, self._run)
-        for unit, content in zip(self._units, state.units, strict=True):
+        for unit, content in zip(self._system.units, state.units, strict=True):
             unit.restore(content)
         self._events = [event for event in self._events if event.time <= state.time]
         try:
@@ -512,15 +508,15 @@ class Simulation:
         except (ModelError, SolveError):
             self.restore(before)
             raise
-        energy = self._prepared.motion.system.record.control.energy
+        energy = self._system.record.control.energy
         energy[2] += float(self._view("energy_error"))
         self._observe()
 
     def _close_again(self) -> None:
         """Close the joints that other lengths have opened."""
-        constraints = self._prepared.motion.system.record.constraints
-        correct, address = self._correct, self._prepared.motion.handle.address
-        motion, time = self._prepared.motion, self._clock[of_run.TIME]
+        constraints = self._system.record.constraints
+        correct, address = self._correct, self._motion.handle.address
+        motion, time = self._motion, self._clock[of_run.TIME]
         for _ in range(CORRECTIONS):
             motion.evaluate(time, self._run.y)
             rows = slice(0, len(constraints.C))
@@ -554,18 +550,13 @@ class Simulation:
 
     def _addresses_of_units(self) -> list[tuple[NDArray[Any], NDArray[Any], NDArray[Any]]]:
         """Arguments of functions, places among them of addresses of records of units, and these: they are no part of a state."""
-        motion = self._prepared.motion
-        if not self._units:
+        if not self._system.units:
             return []
-        functions = motion.system.record.functions
-        laws = [np.uint64(unit.law.address) for unit in self._units]
+        motion, functions = self._motion, self._system.record.functions
+        laws = [np.uint64(unit.law.address) for unit in self._system.units]
         places = functions.span[np.isin(functions.address, laws), 3]
         twin = () if motion.twin is None else (motion.twin.record.functions,)
         return [(each.arguments, places, each.arguments[places].copy()) for each in (functions, *twin)]
-
-    @property
-    def _units(self) -> tuple[Unit, ...]:
-        return self._prepared.motion.system.units
 
     def __repr__(self) -> str:
         return f"<Simulation of {self._plan.machine.name}: t = {self.time:.6g} s, {self.steps} steps of {self._step:g} s, not verified>"
@@ -598,21 +589,3 @@ def _endless(prepared: Prepared, plan: Plan, *, whole: bool) -> tuple[Loop, NDAr
         return loop, None
     own, piece = in_one_piece(run._replace(frames=NOTHING, pace=NOTHING))
     return loop._replace(history=Handle(own._replace(frames=run.frames, pace=run.pace))), piece
-
-
-def _of_units(prepared: Prepared) -> list[NDArray[Any]]:
-    """What is remembered of units but their own memory."""
-    every = [array for unit in prepared.motion.system.units for array in unit.arrays]
-    return [array for array in every if array.size and array.dtype != np.uint64]
-
-
-def _remembered(prepared: Prepared, run: Run) -> list[NDArray[Any]]:
-    """Every array of the run and of the record but the buffer of frames and the addresses of machine code."""
-    return [*remembered(run, prepared.motion), *_of_units(prepared)]
-
-
-def _places_of_states(prepared: Prepared, run: Run) -> dict[str, int]:
-    """Where the states that the user declared stand in y."""
-    names = [fact.name for fact in prepared.motion.system.states]
-    first = len(run.y) - 2 - len(names)
-    return {name: first + k for k, name in enumerate(names)}

@@ -109,7 +109,7 @@ def _iterate(
             raise EquilibriumError("a force, or the state, is not a number", state, tuple(sizes)) from None
         except PivotError:
             raise EquilibriumError("nothing resists a motion", state, tuple(sizes)) from None
-        size = _size(change)
+        size = max(float(np.max(np.abs(change.q), initial=0.0)), abs(change.t))
         if not np.isfinite(size):
             raise EquilibriumError("nothing resists a motion", state, tuple(sizes))
         share = min(1.0, LONGEST / size) if size > 0.0 else 1.0
@@ -138,10 +138,6 @@ def _change(found: Any, r: Array, C: Array, border: Change | None) -> Change:
         return solve_bordered(found, -r, -C, 0.0)
     x = found.solve(-np.concatenate([r, C])) if found is not None else np.zeros(0)
     return Change(x[: len(r)], x[len(r) :])
-
-
-def _size(change: Change) -> float:
-    return max(float(np.max(np.abs(change.q), initial=0.0)), abs(change.t))
 
 
 def _nearer(

@@ -67,7 +67,8 @@ def outputs_of(found: Found, outputs: Mapping[str, Output]) -> dict[str, Number]
             numbers[name] = number = _number(found, output)
             _check_limits(output, number.units)
         except ModelError as error:
-            raise ModelError([_at_output(name, each) for each in error.faults]) from None
+            places = [(f"outputs.{name}.{each.path or 'of'}", each.message) for each in error.faults]
+            raise ModelError([Fault.at(*each) for each in places]) from None
         except OutputFailedError as error:
             raise OutputFailedError(f"output {name}: {error}") from None
     return numbers
@@ -77,10 +78,6 @@ def check_function(output: PythonOutput) -> None:
     """Raise ModelError where the text has no such function, or a limit measures something else than its number."""
     _function(output.source, output.function, output.file)
     _check_limits(output, output.units)
-
-
-def _at_output(name: str, fault: Fault) -> Fault:
-    return Fault.at(f"outputs.{name}.{fault.path or 'of'}", fault.message)
 
 
 def _number(found: Found, output: Output) -> Number:

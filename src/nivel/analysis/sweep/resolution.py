@@ -113,7 +113,10 @@ def resolve(study: StudyFile, machine: Model) -> Resolved:
             parameters[path] = known
         except ModelError as error:
             faults += error.faults
-    settings = {name: _file(study, value) if name in OF_FILES else value for name, value in record.settings.items()}
+    settings = {
+        name: beside(study.file, value) if name in OF_FILES and isinstance(value, str) else value
+        for name, value in record.settings.items()
+    }
     try:
         if record.analysis == "run":
             machine, settings = machine.with_settings(settings), {}
@@ -205,10 +208,6 @@ def _of_settings(study: StudyFile, error: ModelError) -> Iterator[Fault]:
     for fault in error.faults:
         name = fault.path.removeprefix("settings.").removeprefix("simulation.").split(".")[0]
         yield study.fault(("settings", name) if name in study.record.settings else ("settings",), _said(fault))
-
-
-def _file(study: StudyFile, value: Any) -> Any:
-    return beside(study.file, value) if isinstance(value, str) else value
 
 
 def _said(fault: Fault) -> str:

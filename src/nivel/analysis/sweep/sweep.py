@@ -118,9 +118,10 @@ def _subject(
     values: Sequence[Mapping[str, Any]], runs: Sequence[VariantRun], task: Task, *, interrupted: bool
 ) -> Sweep:
     """The runs as their trust report sees them."""
+    names = (", ".join(f"{path} = {value}" for path, value in each.items()) for each in values)
     seen = tuple(
-        Variant(_named(each), run.outcome, run.reason, run.verdict, run.verified, run.headline)
-        for each, run in zip(values, runs, strict=True)
+        Variant(name, run.outcome, run.reason, run.verdict, run.verified, run.headline)
+        for name, run in zip(names, runs, strict=True)
     )
     outcome = "interrupted" if interrupted else "done"
     if not task.judge:
@@ -128,10 +129,6 @@ def _subject(
     if task.analysis in ("run", "statics"):
         return Sweep(outcome=outcome, variants=seen)
     return Sweep(outcome=outcome, variants=seen, by="checks of each", without="not all of them were checked")
-
-
-def _named(values: Mapping[str, Any]) -> str:
-    return ", ".join(f"{path} = {value}" for path, value in values.items())
 
 
 def _run_here(jobs: Sequence[Job], keep: Heard, interrupted: Callable[[], bool], processes: int) -> Sequence[Job]:

@@ -102,7 +102,8 @@ def assess(subject: Subject, given: Mapping[str, Any] | None = None) -> Trust:
     found, lines = dict(given or {}), dict[str, list[Item]]()
     applying = [check for check in every_check() if check.applies(subject)]
     others = found.keys() - {check.name for check in applying}
-    applying = sorted([*applying, *map(_check_of, others)], key=lambda check: check.place)
+    more = (next(check for check in every_check() if check.name == name) for name in others)
+    applying = sorted([*applying, *more], key=lambda check: check.place)
     for check in sorted(applying, key=lambda check: check.last):
         if check.name not in found and not check.lacks(subject):
             seen = subject.with_lines(_in_order(applying, lines)) if check.last else subject
@@ -146,10 +147,6 @@ def thresholds_of(result: Readable, *, quiet: bool = True) -> dict[str, Threshol
 def titles() -> dict[str, str]:
     """Titles of lines by their names."""
     return {each.line or each.name: each.title for each in every_check() if each.title}
-
-
-def _check_of(name: str) -> Check[Any, Any]:
-    return next(check for check in every_check() if check.name == name)
 
 
 def _in_order(applying: Iterable[Check[Any, Any]], lines: Mapping[str, list[Item]]) -> tuple[Item, ...]:

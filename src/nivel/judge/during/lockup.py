@@ -8,12 +8,12 @@ in a way of its own, or opens the joints. So the positions are asked, and not th
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
 from nivel.analysis.assembly.closing import close_positions
 from nivel.analysis.assembly.redundancy import scaled_jacobian
+from nivel.analysis.preparation.memory import arrays_of
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.errors import ModelError
 from nivel.judge.during.stop import named_row, unit_of
@@ -98,7 +98,7 @@ def find_jam(prepared: Prepared, time: float, step: float, short: float, end: fl
     if not can_be_asked(prepared) or not np.isfinite(y).all():
         return None
     # coordinates share their records, and a run may go on
-    kept = [(array, array.copy()) for array in _arrays(prepared.motion.system.record)]
+    kept = [(array, array.copy()) for array in arrays_of(prepared.motion.system.record) if array.flags.writeable]
     try:
         return _Nearby(prepared, time, y).jam(step, max(step, short), end)
     except (ModelError, np.linalg.LinAlgError):  # positions so far apart that nothing can be computed with them
@@ -113,7 +113,7 @@ def branching_joints(prepared: Prepared, time: float, y: Array) -> tuple[str, ..
     """Joints whose rows depend on each other beside the state y of the run at `time` [s], but not at the start; none elsewhere."""
     if not can_be_asked(prepared) or not np.isfinite(y).all():
         return ()
-    kept = [(array, array.copy()) for array in _arrays(prepared.motion.system.record)]
+    kept = [(array, array.copy()) for array in arrays_of(prepared.motion.system.record) if array.flags.writeable]
     try:
         near = _Nearby(prepared, time, y)
         if not near.has_lost(time, near.y, BESIDE):
@@ -204,7 +204,9 @@ class _Nearby:
         """The jam at `last` in the position q, where the rows lose a combination to which they add the shares `lost`."""
         system, constraints = self.absolute.system, self.absolute.system.record.constraints
         owners = dict.fromkeys(system.row_owner[row] for row in np.flatnonzero(lost >= TAKES_PART * lost.max()))
-        rows = {system.row_owner[row]: row for row, name in enumerate(system.rows[: len(lost)]) if _is_driven(name)}
+        rows = {
+            system.row_owner[row]: row for row, name in enumerate(system.rows[: len(lost)]) if name.endswith(".driver")
+        }
         drivers = tuple(name for name in owners if name in rows)
         self.closed(last, q)
         places = tuple(place for name in drivers for place in self.driven_to(rows[name]))
@@ -235,19 +237,6 @@ class _Nearby:
                 turned = f" ({np.degrees(value):.6g}°)" if unit == "rad" else ""
                 name = system.layout.coordinates["joint_coordinate"][place]
                 yield f"{name} is {value:.6g} {unit}{turned}"
-
-
-def _arrays(record: tuple[Any, ...]) -> Iterator[Array]:
-    """All arrays of a record of records."""
-    for part in record:
-        if isinstance(part, tuple):
-            yield from _arrays(part)
-        elif part.flags.writeable:
-            yield part
-
-
-def _is_driven(row: str) -> bool:
-    return row.endswith(".driver")
 
 
 def _listed(names: tuple[str, ...]) -> str:

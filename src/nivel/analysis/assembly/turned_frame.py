@@ -12,7 +12,8 @@ from typing import Final
 
 import numpy as np
 
-from nivel.lazy import dataclass
+from nivel.lazy import dataclass, scipy
+from nivel.results.motion import rotation_matrices
 from nivel.system.system import Array
 
 ANGLES: Final = (0, 1, 2)  # axes of a frame: its three angles [rad], then its three coordinates [m]
@@ -49,11 +50,14 @@ class TurnedFrame:
         back = self._axes_in_space(q, 0).T
         for body, sign in ((self.second, 1.0), (self.first, -1.0)):
             if body >= 0:
-                yield body, np.hstack([np.zeros((3, 3)), sign * back @ _rotation(q, body)])
+                yield (
+                    body,
+                    np.hstack([np.zeros((3, 3)), sign * back @ rotation_matrices(q.reshape(-1, 7)[[body], 3:])[0]]),
+                )
 
     def _axes_in_space(self, q: Array, side: int) -> Array:
         body, axes = (self.first, self.first_axes) if side == 0 else (self.second, self.second_axes)
-        return axes if body < 0 else _rotation(q, body) @ axes
+        return axes if body < 0 else rotation_matrices(q.reshape(-1, 7)[[body], 3:])[0] @ axes
 
 
 @dataclass(frozen=True)
@@ -73,8 +77,9 @@ class FrameAim:
     def error(self, q: Array) -> Array:
         """(k,) how far the values are from those wished for, at positions q."""
         if self._is_whole:
-            wanted = cardan(np.array([self.values[axis] for axis in ANGLES]))
-            turned = wanted @ _vector(wanted.T @ self.frame.turn(q))
+            turn = scipy.spatial.transform.Rotation
+            wanted = turn.from_euler("XYZ", [self.values[axis] for axis in ANGLES]).as_matrix()
+            turned = wanted @ turn.from_matrix(wanted.T @ self.frame.turn(q)).as_rotvec()
             return np.append(turned, [self._shift(q, axis) for axis in sorted(self.values) if axis in SHIFTS])
         now = self.frame.values(q, self.near)
         return np.array(
@@ -105,18 +110,6 @@ class FrameAim:
         return float(q.reshape(-1, 7)[self.frame.second, axis - 3]) - self.values[axis]
 
 
-def cardan(angles: Array) -> Array:
-    """(3, 3) R_x(a) R_y(b) R_z(c)."""
-    (ca, cb, cc), (sa, sb, sc) = np.cos(angles), np.sin(angles)
-    return np.array(
-        [
-            [cb * cc, -cb * sc, sb],
-            [ca * sc + sa * sb * cc, ca * cc - sa * sb * sc, -sa * cb],
-            [sa * sc - ca * sb * cc, sa * cc + ca * sb * sc, ca * cb],
-        ]
-    )
-
-
 def nearest_angles(R: Array, near: Array) -> Array:
     """(3,) angles of the turn R that are nearest to `near`."""
     b = np.arctan2(R[0, 2], np.hypot(R[0, 0], R[0, 1]))
@@ -135,25 +128,6 @@ def rates_of_angles(angles: Array) -> Array:
     (ca, cb, _), (sa, sb, _) = np.cos(angles), np.sin(angles)
     cb = cb if abs(cb) > UPRIGHT else UPRIGHT
     return np.array([[1.0, sa * sb / cb, -ca * sb / cb], [0.0, ca, sa], [0.0, -sa / cb, ca / cb]])
-
-
-def _vector(R: Array) -> Array:
-    """(3,) the rotation vector of R [rad], at most π long."""
-    axial = 0.5 * np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
-    sine, cosine = float(np.linalg.norm(axial)), 0.5 * (float(np.trace(R)) - 1.0)
-    angle = np.arctan2(sine, cosine)
-    if sine > 1e-8 or cosine > 0.0:
-        return axial * (angle / sine if sine > 1e-8 else 1.0)
-    column = int(np.argmax(np.diag(R)))  # half a turn: R + 1 = 2 n nᵀ
-    axis = R[:, column] + np.eye(3)[column]
-    return np.pi * axis / np.linalg.norm(axis)
-
-
-def _rotation(q: Array, body: int) -> Array:
-    """(3, 3) of the Euler parameters of a body: 1 + 2 θ₀ ẽ + 2 ẽ ẽ."""
-    e0, x, y, z = q.reshape(-1, 7)[body, 3:]
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.eye(3) + 2.0 * e0 * cross + 2.0 * cross @ cross
 
 
 def _wrapped(angle: Array) -> Array:

@@ -24,13 +24,13 @@ def read_table(path: str, option: str) -> tuple[list[str], list[list[float]]]:
             rows = [row for row in csv.reader(file) if row]
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise ModelError(_fault(option, f"the table {path} cannot be read: {reason.lower()}")) from error
+        raise ModelError(Fault.at(option, f"the table {path} cannot be read: {reason.lower()}")) from error
     names = [name.strip() for name in rows[0]] if rows else [""]
     columns: list[list[float]] = [[] for _ in names]
     for number, row in enumerate(rows[1:], 2):
         if len(row) != len(names):
             raise ModelError(
-                _fault(option, f"line {number} of {path} has {len(row)} columns, the first line has {len(names)}")
+                Fault.at(option, f"line {number} of {path} has {len(row)} columns, the first line has {len(names)}")
             )
         for column, text in zip(columns, row, strict=True):
             column.append(_number(text, option, f"line {number} of {path}"))
@@ -43,12 +43,8 @@ def _number(text: str, option: str, where: str) -> float:
     except ValueError:
         value = float("nan")
     if not isfinite(value):
-        raise ModelError(_fault(option, f"{where}: `{text}` is not a number"))
+        raise ModelError(Fault.at(option, f"{where}: `{text}` is not a number"))
     return value
-
-
-def _fault(option: str, message: str) -> Fault:
-    return Fault.at(option, message)
 
 
 PLACE, AXES = ("time", "x", "y", "z"), ("e0", "e1", "e2", "e3")

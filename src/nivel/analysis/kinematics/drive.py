@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from math import pi
 from typing import Any
@@ -113,13 +114,8 @@ def range_of_motion(
         reasons.append(reason)
     full = unit == "rad" and not any(reasons)
     found = Range(name, unit, ends[0], ends[1], full, reasons[0], reasons[1])
-    turning = _turning_points(curve) if any(reasons) else None
+    turning = None
+    if any(reasons):
+        with suppress(ModelError, SolveError):  # then it cannot be told
+            turning = tuple(each.value for each in curve().turning)
     return replace(found, trust=assess(Reach(outcome="done", range=found, ways=tuple(ways), turning=turning)))
-
-
-def _turning_points(curve: Callable[[], ConfigurationCurve]) -> tuple[float, ...] | None:
-    """Where the coordinate turns back; None where that cannot be told."""
-    try:
-        return tuple(each.value for each in curve().turning)
-    except (ModelError, SolveError):
-        return None

@@ -24,7 +24,7 @@ from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.dynamics import Loop, march, start_loop
 from nivel.analysis.run.preparation import prepare
-from nivel.analysis.run.second_run import FINER, TENTH, refine
+from nivel.analysis.run.second_run import FINER, TENTH, refine, with_steps
 from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.integrate.loop.sink import Header
 from nivel.judge.before.refusals import sampled_times
@@ -120,9 +120,7 @@ class Varied:
         # where something is sampled, steps end at its times
         fine = 2 * settings.every if self._sampled else ceil(FINER * settings.every)
         share = settings.every / fine
-        step = share * settings.step
-        steps = max(1, ceil(settings.duration / step * (1.0 - 1e-12)))
-        return replace(settings, step=step, every=fine, steps=steps, output_interval=fine * step), share
+        return with_steps(settings, share * settings.step, fine), share
 
     @property
     def blurred(self) -> float:

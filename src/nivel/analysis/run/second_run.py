@@ -91,10 +91,15 @@ def refine(settings: RunSettings, between_samples: int = 0) -> Refinement:
         finer = replace(settings, tolerance=TENTH * settings.tolerance)
         return Refinement(finer, f"a tolerance of {finer.tolerance:.3g} and other, irregular steps", TENTH)
     coarse, fine = subdivision(settings, between_samples)
-    step = settings.step * coarse / fine
+    finer = with_steps(settings, settings.step * coarse / fine, fine)
+    words = f"steps of {seconds(finer.step)}"
+    return Refinement(finer, words, (coarse / fine) ** INTEGRATORS[settings.integrator].order)
+
+
+def with_steps(settings: RunSettings, step: float, every: int) -> RunSettings:
+    """The same run with fixed steps [s], `every` of them between frames."""
     steps = max(1, ceil(settings.duration / step * (1.0 - 1e-12)))
-    finer = replace(settings, step=step, every=fine, steps=steps, output_interval=fine * step)
-    return Refinement(finer, f"steps of {seconds(step)}", (coarse / fine) ** INTEGRATORS[settings.integrator].order)
+    return replace(settings, step=step, every=every, steps=steps, output_interval=every * step)
 
 
 def coarsened(plan: Plan) -> Refinement | None:
@@ -110,15 +115,9 @@ def coarsened(plan: Plan) -> Refinement | None:
         return None
     if not settings.steps >= TIMES * every:
         return None
-    step = settings.step * coarse / fine
-    own = replace(
-        settings,
-        step=step,
-        every=every * fine // coarse,
-        steps=max(1, ceil(settings.duration / step * (1.0 - 1e-12))),
-        output_interval=every * settings.step,
-    )
-    return Refinement(own, f"steps of {seconds(step)}", (coarse / fine) ** method.order)
+    own = with_steps(settings, settings.step * coarse / fine, every * fine // coarse)
+    own = replace(own, output_interval=every * settings.step)
+    return Refinement(own, f"steps of {seconds(own.step)}", (coarse / fine) ** method.order)
 
 
 def _steps_to_meet(plan: Plan) -> int:

@@ -100,11 +100,9 @@ def element_errors(result: Readable, other: Readable, factor: float) -> ElementE
         if name not in other.variables or name.startswith("mode_"):  # shapes have no sign
             continue
         a, b = result.array(name)[first], other.array(name)[second]
+        b = _matched(b, variable.dims, result, other)
         if name == "orientation":
-            b = _matched(b, variable.dims, result, other)
             b = np.where(np.sum(a * b, axis=-1, keepdims=True) < 0.0, -b, b)
-        else:
-            b = _matched(b, variable.dims, result, other)
         if b.shape != a.shape:
             continue
         off = factor * np.abs(a - b)

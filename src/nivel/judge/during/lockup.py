@@ -8,6 +8,7 @@ in a way of its own, or opens the joints. So the positions are asked, and not th
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 
 import numpy as np
 
@@ -89,6 +90,19 @@ def can_be_asked(prepared: Prepared) -> bool:
     return 0 < entries <= MOST_ENTRIES and not sliding and not len(prepared.motion.system.modes)
 
 
+@contextmanager
+def _asked(prepared: Prepared) -> Iterator[None]:
+    """Positions are asked: coordinates share their records, and a run may go on. Some are so far apart that nothing can be computed with
+    them."""
+    kept = [(array, array.copy()) for array in arrays_of(prepared.motion.system.record) if array.flags.writeable]
+    try:
+        with suppress(ModelError, np.linalg.LinAlgError):
+            yield
+    finally:
+        for array, numbers in kept:
+            array[...] = numbers
+
+
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of states that may be beyond all bounds
 def find_jam(prepared: Prepared, time: float, step: float, short: float, end: float, y: Array) -> Jam | None:
     """The jam in or beside the step from `time` [s] with the accepted state y of the run; None where none is found.
@@ -97,15 +111,9 @@ def find_jam(prepared: Prepared, time: float, step: float, short: float, end: fl
     """
     if not can_be_asked(prepared) or not np.isfinite(y).all():
         return None
-    # coordinates share their records, and a run may go on
-    kept = [(array, array.copy()) for array in arrays_of(prepared.motion.system.record) if array.flags.writeable]
-    try:
+    with _asked(prepared):
         return _Nearby(prepared, time, y).jam(step, max(step, short), end)
-    except (ModelError, np.linalg.LinAlgError):  # positions so far apart that nothing can be computed with them
-        return None
-    finally:
-        for array, numbers in kept:
-            array[...] = numbers
+    return None
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of states that may be beyond all bounds
@@ -113,19 +121,14 @@ def branching_joints(prepared: Prepared, time: float, y: Array) -> tuple[str, ..
     """Joints whose rows depend on each other beside the state y of the run at `time` [s], but not at the start; none elsewhere."""
     if not can_be_asked(prepared) or not np.isfinite(y).all():
         return ()
-    kept = [(array, array.copy()) for array in arrays_of(prepared.motion.system.record) if array.flags.writeable]
-    try:
+    with _asked(prepared):
         near = _Nearby(prepared, time, y)
         if not near.has_lost(time, near.y, BESIDE):
             return ()
         shares = np.abs(np.linalg.svd(near.rows_at(time, near.y), full_matrices=False)[0][:, near.rank - 1])
         owners = prepared.absolute.system.row_owner
         return tuple(dict.fromkeys(owners[row] for row in np.flatnonzero(shares >= TAKES_PART * shares.max())))
-    except (ModelError, np.linalg.LinAlgError):
-        return ()
-    finally:
-        for array, numbers in kept:
-            array[...] = numbers
+    return ()
 
 
 def branching_advice(joints: tuple[str, ...], step: float) -> tuple[str, str]:

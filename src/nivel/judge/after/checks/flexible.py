@@ -108,7 +108,6 @@ def _turned(theta: Array, axis: Array) -> Array:
     return axis + e0 * t + np.cross(e, t)
 
 
-Array = NDArray[np.float64]
 NEGLECTED = Threshold(
     1e-3,
     1e-2,
@@ -190,7 +189,6 @@ def neglected(machine: MachineRecord) -> tuple[Neglected, ...]:
     return tuple(out)
 
 
-Array = NDArray[np.float64]
 # in a window of the frequency at which the modes end; samples in one of four times that frequency
 PERIODS, SAMPLES = (32, 8)
 MOST_WINDOWS = 200

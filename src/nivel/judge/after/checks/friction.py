@@ -14,7 +14,7 @@ from nivel.elements.forces.friction import Friction
 from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Run
 from nivel.kernels.elements import friction as columns
-from nivel.lazy import dataclass
+from nivel.lazy import dataclass, scipy
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.results.frames.contents import own_units
@@ -56,7 +56,7 @@ class Sticking:
 
     friction: str
     coordinate: str
-    left: NDArray[np.float64]
+    left: Array
     static: float
     viscous: float
 
@@ -214,7 +214,7 @@ def still(result: Readable, coordinate: str, share: float) -> NDArray[np.bool_]:
     return known & (rate <= share * max(once, float(np.max(rate, initial=0.0, where=known))))
 
 
-def spans_of(time: NDArray[np.float64], rests: NDArray[np.bool_]) -> tuple[tuple[float, float], ...]:
+def spans_of(time: Array, rests: NDArray[np.bool_]) -> tuple[tuple[float, float], ...]:
     """First and last times of the frames that follow each other in `rests`, two at least."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], rests, [False]]).astype(int)))
     pairs = zip(edges[::2], edges[1::2] - 1, strict=True)
@@ -271,7 +271,7 @@ def _holding(result: Readable, frictions: Sequence[Sticking]) -> tuple[NDArray[n
     return np.array(rests).T, np.array(sticks).T
 
 
-def _groups(left: NDArray[np.float64], rests: NDArray[np.bool_], sticks: NDArray[np.bool_]) -> list[tuple[int, ...]]:
+def _groups(left: Array, rests: NDArray[np.bool_], sticks: NDArray[np.bool_]) -> list[tuple[int, ...]]:
     """Frictions whose efforts may change together without changing what they do, in groups that have nothing to do with each other."""
     held = _basis(left[sticks])
     beside = np.linalg.norm(left - left @ held.T @ held, axis=1)
@@ -282,22 +282,12 @@ def _groups(left: NDArray[np.float64], rests: NDArray[np.bool_], sticks: NDArray
     free = every[int(np.sum(size > LEFT)) :]
     # of the projection onto the changes that do nothing, the columns of two groups are perpendicular
     together = np.abs(free.T @ free) > LEFT
-    groups: dict[tuple[int, ...], None] = {}
-    for k in range(len(chosen)):
-        if together[k, k]:
-            groups[tuple(int(chosen[m]) for m in _connected(together, k))] = None
-    return list(groups)
+    _, group = scipy.sparse.csgraph.connected_components(together, directed=False)
+    alike = [np.flatnonzero(group == g) for g in dict.fromkeys(group.tolist())]
+    return [tuple(chosen[own].tolist()) for own in alike if together[own[0], own[0]]]
 
 
-def _connected(together: NDArray[np.bool_], start: int) -> NDArray[np.intp]:
-    """Whatever `start` is together with, by way of others too."""
-    reached = together[start]
-    while not np.array_equal(further := together[reached].any(axis=0), reached):
-        reached = further
-    return np.flatnonzero(reached)
-
-
-def _basis(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+def _basis(rows: Array) -> Array:
     """Orthonormal rows that span the same."""
     if not len(rows):
         return rows

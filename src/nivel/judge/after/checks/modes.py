@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from nivel.flexible.body.body import Interface, LeftOut, MeshError
     from nivel.flexible.body.invariants import Invariants
 
+BACK = np.array([1.0, -1.0, -1.0, -1.0])  # on Euler parameters: from global axes to those of a body
 MOST_FRAMES = 4000  # that are looked at, at most
 STRAIGHT = 1e-4  # of its size: a body that bends by less is compared with one that bends by as much
 FITS = 1e-3  # misfit, as a share, with which the forces at one interface explain the motion of a body
@@ -254,7 +255,7 @@ def look_at_vibrations(subject: Equilibria) -> Unsure | None:
         left, k = basis.left, result.coordinates["body"].index(basis.body.name)
         if not len(left.eigenvalues) or not len(moving):
             continue
-        theta = result.array("orientation", last)[:, k] * np.array([1.0, -1.0, -1.0, -1.0])
+        theta = result.array("orientation", last)[:, k] * BACK
         axes = np.repeat(theta, len(moving), axis=0)
         shift, turn = (rotated(axes, result.array(name, last)[0, moving, k]) for name in ("mode_shift", "mode_turn"))
         bent = result.array("mode_bending", last)[0, moving, basis.body.first : basis.body.last]
@@ -277,7 +278,7 @@ def look_at_vibrations(subject: Equilibria) -> Unsure | None:
 def _motion(result: Readable, basis: Basis, frames: slice) -> _Motion:
     body = result.coordinates["body"].index(basis.body.name)
     own = slice(basis.body.first, basis.body.last)
-    theta = result.array("orientation", frames)[:, body] * np.array([1.0, -1.0, -1.0, -1.0])
+    theta = result.array("orientation", frames)[:, body] * BACK
     p = result.array("modal_coordinate", frames)[:, own]
     if "acceleration" not in result.variables:  # at rest
         none, still = np.zeros((len(p), 3)), np.zeros_like(p)
@@ -320,7 +321,7 @@ def _solved(equations: Array, rest: Array) -> Array:
 def _reactions(result: Readable, basis: Basis, frames: slice) -> Array:
     """(t, i, 6) of the joints at the interfaces, axes of the body."""
     body = result.coordinates["body"].index(basis.body.name)
-    theta = result.array("orientation", frames)[:, body] * np.array([1.0, -1.0, -1.0, -1.0])
+    theta = result.array("orientation", frames)[:, body] * BACK
     out = np.zeros((len(theta), len(basis.phi), 6))
     for each in basis.held:
         joint = result.coordinates["joint"].index(each.joint)

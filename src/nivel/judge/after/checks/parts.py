@@ -10,6 +10,7 @@ import numpy as np
 
 from nivel.elements.contacts.contact import Contacts
 from nivel.judge.after.checks.energy import BALANCE
+from nivel.judge.after.checks.modes import BACK
 from nivel.judge.after.report import ESTIMATE, STEPS, Check
 from nivel.judge.after.subject import Run
 from nivel.lazy import dataclass
@@ -91,7 +92,6 @@ LEAST = 1e-14  # of the largest energy of the machine: round-off
 FRAMES = 20_000  # that are looked at, at most
 WORD = re.compile(r"[^\W\d]\w*(?:-\w+)*")
 MOST = 50  # parts: machines of more are not looked at
-BACK = np.array([1.0, -1.0, -1.0, -1.0])
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,7 @@ class Picture:
         """attributes, layout : of the run, as a result has them. frame : the first one. inputs : that the page moves."""
         scene, record, block = json.loads(attributes["scene"]), json.loads(attributes["machine_record"]), Block()
         self.places = Places(layout)
-        stage = machine_stage(str(attributes["machine"]), _Pose(scene, self.places, frame), record, block)
+        stage = machine_stage(str(attributes["machine"]), scene, record, block, self.places.pose(frame))
         self.origin = np.array(stage.origin)
         self.traced = traced([each.body for each in stage.markers])
         by_name, watched = {each.name: each for each in sensors}, gauges(layout)
@@ -75,28 +75,6 @@ class Places:
         """What the page draws."""
         position, orientation = self.pose(frame)
         return frames.rows(position[None] - origin, orientation[None], frame[self.modal][None])[0]
-
-
-class _Pose:
-    """A machine that does not move, for the first picture."""
-
-    movements = ()
-
-    def __init__(self, scene: dict[str, Any], places: Places, frame: Array) -> None:
-        self.scene = scene
-        self._pose = places.pose(frame)
-
-    def pose(self) -> tuple[Array, Array]:
-        return self._pose
-
-    def values(self) -> list[float]:
-        return []
-
-    def move(self, name: str, value: float) -> str:
-        return ""
-
-    def reset(self) -> None:
-        pass
 
 
 def gauges(layout: FrameLayout) -> list[tuple[str, Variable]]:

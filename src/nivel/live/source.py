@@ -12,7 +12,7 @@ from nivel.live.picture import Picture
 from nivel.live.session import COMMANDS, Session
 from nivel.machine.core.vectors import Array
 from nivel.view.records import Command, Drive, Hold, Note, Status, Take
-from nivel.view.sources import Still
+from nivel.view.sources import Source
 
 PATIENCE: Final = 2.0  # s that an operator may be silent before another one may take over
 ONLY_WATCH: Final = "a program operates the machine by datagrams; this page can only watch"
@@ -28,7 +28,7 @@ class Program(Protocol):
         ...
 
 
-class LiveSource(Still):
+class LiveSource(Source):
     """A session that pages look at; one of them at a time operates it."""
 
     def __init__(self, session: Session, program: Program | None = None) -> None:

@@ -106,7 +106,7 @@ def _forces(cast: Cast, moments: Moments, read: Read) -> Iterator[Traced]:
         elif force.kind == "contact":
             yield from _contact(force, moments, read)
         elif force.kind in ON_COORDINATES:
-            yield from _on_coordinate(cast, moments, record, read, _CoordinateEffort(force.name, magnitude, power))
+            yield from _on_coordinate(cast, moments, record, magnitude, power, read)
 
 
 def _contact(force: Force, moments: Moments, read: Read) -> Iterator[Traced]:
@@ -127,10 +127,8 @@ def _contact(force: Force, moments: Moments, read: Read) -> Iterator[Traced]:
 
 def _vector(name: str, read: Read) -> Array | None:
     """(n, 3) a variable of three components."""
-    parts = [read(name.format(axis)) for axis in "xyz"]
-    return (
-        None if any(part is None for part in parts) else np.stack([part for part in parts if part is not None], axis=1)
-    )
+    parts = [part for axis in "xyz" if (part := read(name.format(axis))) is not None]
+    return np.stack(parts, axis=1) if len(parts) == 3 else None
 
 
 def _mean_point(moments: Moments, body: int, place: Array, weight: Array) -> Triple:
@@ -142,34 +140,26 @@ def _mean_point(moments: Moments, body: int, place: Array, weight: Array) -> Tri
     return float(x), float(y), float(z)
 
 
-@dataclass(frozen=True)
-class _CoordinateEffort:
-    name: str
-    magnitude: Array
-    power: Array
-
-
 def _drivers(cast: Cast, moments: Moments, read: Read) -> Iterator[Traced]:
     for driver in cast.record.get("drivers", []):
         effort, power = read(f"driver.{driver['name']}.effort"), read(f"driver.{driver['name']}.power")
         if effort is not None and power is not None:
-            yield from _on_coordinate(cast, moments, driver, read, _CoordinateEffort(driver["name"], effort, power))
+            yield from _on_coordinate(cast, moments, driver, effort, power, read)
 
 
 def _on_coordinate(
-    cast: Cast, moments: Moments, record: dict[str, Any], read: Read, effort: _CoordinateEffort
+    cast: Cast, moments: Moments, record: dict[str, Any], effort: Array, power: Array, read: Read
 ) -> Iterator[Traced]:
     """An effort on a joint coordinate along or about the joint's axis, shown on the second body."""
     place = coordinate_place(record.get("coordinate"), cast.joints)
     rate = read(f"{place.name}.rate") if place else None
     if place is None or rate is None or place.word not in ALONG_Z:
         return
-    joint, coordinate = place.joint, place.word
-    vectors = _signed(effort.magnitude, effort.power, rate)[:, None] * moments.turned(joint.bodies[0], joint.axes[0])
+    joint = place.joint
+    vectors = _signed(effort, power, rate)[:, None] * moments.turned(joint.bodies[0], joint.axes[0])
     second = int(joint.bodies[1] >= 0)
     vectors = vectors if second else -vectors
-    body, point = joint.bodies[second], joint.points[second]
-    yield Traced(effort.name, "applied", ALONG_Z[coordinate], body, point, vectors)
+    yield Traced(record["name"], "applied", ALONG_Z[place.word], joint.bodies[second], joint.points[second], vectors)
 
 
 def _load(
@@ -183,24 +173,20 @@ def _load(
     kind = record["type"]
     components = list(record.get("vector", []))
     constant = [isinstance(each, int | float) for each in components]
+    frame = body if record.get("axes") == "body" else -1
     if all(constant):
-        direction, signed = np.array(components, dtype=float), None
-    elif sum(not (known and value == 0.0) for known, value in zip(constant, components, strict=True)) == 1:
-        direction, signed = np.array([0.0 if known else 1.0 for known in constant]), magnitude
-    else:
+        yield Traced(record["name"], "applied", kind, body, point, moments.turned(frame, components))
         return
-    along = moments.turned(body if record.get("axes") == "body" else -1, direction)
-    if signed is None:
-        yield Traced(record["name"], "applied", kind, body, point, along)
+    if sum(not (known and value == 0.0) for known, value in zip(constant, components, strict=True)) != 1:
         return
+    along = moments.turned(frame, [0.0 if known else 1.0 for known in constant])
     velocity, turning = read("velocity"), read("angular_velocity")
     if velocity is None or turning is None:
         return
     arm = moments.turned(body, point)
     moving = turning[:, body] if kind == "torque" else velocity[:, body] + np.cross(turning[:, body], arm)
-    yield Traced(
-        record["name"], "applied", kind, body, point, _signed(signed, power, np.sum(moving * along, 1))[:, None] * along
-    )
+    vectors = _signed(magnitude, power, np.sum(moving * along, 1))[:, None] * along
+    yield Traced(record["name"], "applied", kind, body, point, vectors)
 
 
 def _signed(magnitude: Array, power: Array, rate: Array) -> Array:
@@ -278,9 +264,7 @@ def _frames(joint: Joint, moments: Moments) -> tuple[Array, Array, Array]:
         x = moments.turned(joint.bodies[side], joint.x_axes[side]) if joint.x_axes else _across(z)
         axes.append(np.stack([x, np.cross(z, x), z], axis=-1))
     points = [moments.point(joint.bodies[side], joint.points[side]) for side in (0, 1)]
-    apart = points[1] - points[0]
-    length = np.linalg.norm(apart, axis=-1, keepdims=True)
-    return axes[0], axes[1], np.divide(apart, length, out=np.zeros_like(apart), where=length > 0.0)
+    return axes[0], axes[1], _unit(points[1] - points[0])
 
 
 def _across(z: Array) -> Array:

@@ -184,7 +184,7 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
         if budget.plots and (number == 0 or budget.columns)
         else [],
         circuit=_circuit(result, record) if number == 0 else "",
-        moments=[Moment(name, float(at)) for name, at in _marks(result)],
+        moments=[Moment(name, float(at)) for name, at in result.marks if np.isfinite(at)][:MOST_MOMENTS],
         notes=_notes(result, rows[:, : 7 * bodies], frames),
         motion=Motion(
             block.add(result.abscissa[frames], "f8"),
@@ -294,10 +294,6 @@ def _poses(result: Result, bodies: int, frames: slice) -> tuple[Array, Array]:
 
 def _read(result: Result, name: str, frames: slice) -> Array | None:
     return result.array(name, frames) if name in result else None
-
-
-def _marks(result: Result) -> list[tuple[str, float]]:
-    return [(name, at) for name, at in result.marks if np.isfinite(at)][:MOST_MOMENTS]
 
 
 def _notes(result: Result, poses: Array, frames: slice) -> list[str]:

@@ -99,7 +99,8 @@ class Viewing:
         if not self._is_own_name(request.headers.get_all("Host")) or not self._has_token(parts.query):
             return _respond(connection, HTTPStatus.FORBIDDEN, "Forbidden: open the address that `nivel view` printed.")
         if parts.path == "/stream":
-            return None if self._is_own_page(request) else _respond(connection, HTTPStatus.FORBIDDEN, "Forbidden.")
+            own = request.headers.get_all("Origin") == [f"http://{request.headers['Host']}"]
+            return None if own else _respond(connection, HTTPStatus.FORBIDDEN, "Forbidden.")
         if parts.path != "/":
             return _respond(connection, HTTPStatus.NOT_FOUND, "There is nothing here.")
         return _respond(connection, HTTPStatus.OK, served_page(), page=True)
@@ -119,9 +120,6 @@ class Viewing:
             return True
         given = parse_qs(query).get("token", [""])[0]
         return hmac.compare_digest(given.encode(), self.address.token.encode())
-
-    def _is_own_page(self, request: Request) -> bool:
-        return request.headers.get_all("Origin") == [f"http://{request.headers['Host']}"]
 
     def has_news(self) -> None:
         """All pages are to get a frame."""

@@ -33,85 +33,54 @@ from nivel.view.records import (
 from nivel.view.stage import cast, flexible
 
 
-class Source(Protocol):
-    """What is shown. `on_change` is called, from any thread, when there is a new frame.
+class Source:
+    """What is shown; without frames of its own, unless it says otherwise.
 
+    on_change : called, from any thread, when there is a new frame.
     forgiving : messages that are not understood, or come too often, are dropped and counted; else their page is sent away.
     """
-
-    on_change: Callable[[], None]
-    forgiving: bool
-
-    def package(self) -> bytes:
-        """Everything that the page needs at first."""
-        ...
-
-    def frame(self) -> tuple[float, Array] | None:
-        """The newest frame with its time; None where the package has the whole motion."""
-        ...
-
-    def samples(self, after: int) -> tuple[int, Array]:
-        """Of a live machine the samples (n, width) that follow number `after`, and the number of the last: see `Package.traced`."""
-        ...
-
-    def column(self, stage: int, name: str) -> Array:
-        """A column of a stage, one number a frame. Raises ModelError."""
-        ...
-
-    def move(self, coordinate: str, value: float) -> Moved | None:
-        """Move a joint coordinate by hand; None where nothing can be moved."""
-        ...
-
-    def reset(self) -> Moved | None:
-        """Put the machine back."""
-        ...
-
-    def hear(self, page: object, said: Drive | Hold | Take | Command) -> Note | None:
-        """What a page that operates a live machine says."""
-        ...
-
-    def status(self, page: object, dropped: int) -> Status | None:
-        """How a live machine is; None of others. dropped : messages of this page."""
-        ...
-
-    def leave(self, page: object) -> None:
-        """A page is gone."""
-        ...
-
-
-class Still:
-    """A source without frames of its own."""
 
     def __init__(self) -> None:
         self.on_change: Callable[[], None] = lambda: None
         self.forgiving = False
 
+    def package(self) -> bytes:
+        """Everything that the page needs at first."""
+        raise NotImplementedError
+
     def frame(self) -> tuple[float, Array] | None:
+        """The newest frame with its time; None where the package has the whole motion."""
         return None
 
     def samples(self, after: int) -> tuple[int, Array]:
+        """Of a live machine the samples (n, width) that follow number `after`, and the number of the last: see `Package.traced`."""
         return after, np.empty((0, 0))
 
     def column(self, stage: int, name: str) -> Array:
+        """A column of a stage, one number a frame. Raises ModelError."""
         raise ModelError(f"there is no variable `{name}`")
 
     def move(self, coordinate: str, value: float) -> Moved | None:
+        """Move a joint coordinate by hand; None where nothing can be moved."""
         return None
 
     def reset(self) -> Moved | None:
+        """Put the machine back."""
         return None
 
     def hear(self, page: object, said: Drive | Hold | Take | Command) -> Note | None:
+        """What a page that operates a live machine says."""
         return None
 
     def status(self, page: object, dropped: int) -> Status | None:
+        """How a live machine is; None of others. dropped : messages of this page."""
         return None
 
     def leave(self, page: object) -> None:
-        pass
+        """A page is gone."""
 
 
-class Playback(Still):
+class Playback(Source):
     """A result, and results laid over it as ghosts."""
 
     def __init__(self, results: Sequence[Result], budget: Budget = SERVED) -> None:
@@ -163,7 +132,7 @@ class Movable(Protocol):
         ...
 
 
-class PosedMachine(Still):
+class PosedMachine(Source):
     """A machine moved by hand: every move gives a frame."""
 
     def __init__(self, name: str, movable: Movable, record: dict[str, Any]) -> None:
@@ -171,7 +140,7 @@ class PosedMachine(Still):
         self._movable = movable
         self._lock = Lock()
         block = Block()
-        self._stage = machine_stage(name, movable, record, block)
+        self._stage = machine_stage(name, movable.scene, record, block, movable.pose(), movable.movements)
         self._package = to_bytes(Package(PROTOCOL, "machine", [self._stage]), block)
 
     def package(self) -> bytes:
@@ -184,26 +153,33 @@ class PosedMachine(Still):
         return 0.0, frames.rows(position[None] - np.array(self._stage.origin), orientation[None], undeformed)[0]
 
     def move(self, coordinate: str, value: float) -> Moved | None:
-        with self._lock:
-            problem = self._movable.move(coordinate, value)
-            values = self._movable.values()
-        self.on_change()
-        return Moved("moved", values, problem)
+        return self._moved(lambda: self._movable.move(coordinate, value))
 
     def reset(self) -> Moved | None:
+        return self._moved(self._movable.reset)
+
+    def _moved(self, move: Callable[[], str | None]) -> Moved:
+        """What the page hears after a move, which says why it could not be made."""
         with self._lock:
-            self._movable.reset()
+            problem = move()
             values = self._movable.values()
         self.on_change()
-        return Moved("moved", values, "")
+        return Moved("moved", values, problem or "")
 
 
-def machine_stage(name: str, movable: Movable, record: dict[str, Any], block: Block) -> Stage:
-    """What is drawn of a machine in its present position."""
-    players = cast(movable.scene, record, block)
-    position, orientation = movable.pose()
+def machine_stage(
+    name: str,
+    scene: dict[str, Any],
+    record: dict[str, Any],
+    block: Block,
+    pose: tuple[Array, Array],
+    movements: Sequence[Any] = (),
+) -> Stage:
+    """What is drawn of a machine in a pose. movements : as of `Movable`."""
+    players = cast(scene, record, block)
+    position, orientation = pose
     where = extent(players, position[None], orientation[None])
-    bending = flexible(movable.scene, block, None)
+    bending = flexible(scene, block, None)
     modes = max((each.first + each.modes.shape[0] for each in bending), default=0)
     row = frames.rows(position[None] - np.array(where.origin), orientation[None], np.zeros((1, modes)))
     motion = Motion(block.add(np.zeros(1), "f8"), block.add(row.T), 1, 1)
@@ -228,14 +204,13 @@ def machine_stage(name: str, movable: Movable, record: dict[str, Any], block: Bl
         surroundings=players.surroundings,
         couplings=couplings(players, position[None], orientation[None]),
         coordinates=[
-            Coordinate(m.name, m.name.partition(".")[0], m.unit, m.value, m.low, m.high, m.free)
-            for m in movable.movements
+            Coordinate(m.name, m.name.partition(".")[0], m.unit, m.value, m.low, m.high, m.free) for m in movements
         ],
         motion=motion,
     )
 
 
-class Live(Still):
+class Live(Source):
     """Frames that a program hands over while it runs: `show` keeps the newest, and is never waited for."""
 
     def __init__(self, stage: Stage, block: Block) -> None:

@@ -15,6 +15,8 @@ Array = NDArray[np.float64]
 
 FACETS = 48  # of a cylinder: its silhouette is round to 0.2 % of the radius
 MOST_FACES = 4000  # of a mesh, to keep the picture small
+# outlined edges of a face of what is turned: none, and those around the axis
+SMOOTH, RIMS = np.zeros(4, dtype=bool), np.array([True, False, True, False])
 FEW_FACETS, FEWEST_FACETS = 20, 8  # in a machine of many bodies, to keep the picture small
 
 
@@ -54,7 +56,9 @@ def solid(shape: dict[str, Any], facets: int = FACETS) -> list[Face] | Ball:
             radii = [shape["outer_radius"], shape["inner_radius"]]
             faces = _round(shape["length"], radii, shape.get("along") or "x", facets)
         case "capsule":
-            faces = _lathe(_capsule_profile(shape["radius"], shape["length"]), shape.get("along") or "x", facets)
+            faces = _lathe(
+                _capsule_profile(shape["radius"], shape["length"]), shape.get("along") or "x", facets, SMOOTH
+            )
         case "extrusion":
             faces = _prism(np.array(shape["outline"], dtype=float), shape["length"], shape.get("along") or "x")
         case "mesh":
@@ -128,37 +132,15 @@ def _box(size: Array) -> list[Face]:
 
 def _round(length: float, radii: list[float], along: str, facets: int) -> list[Face]:
     """A cylinder, or with a second radius a tube, about the axis `along`."""
-    turn = 2.0 * np.pi * np.arange(facets + 1) / facets
-    axis = "xyz".index(along)
-    order = [(axis + k) % 3 for k in range(3)]  # places of (axis, first, second cross direction)
-
-    def place(s: Array | float, y: Array | float, z: Array | float) -> Array:
-        out = np.empty((*np.broadcast(s, y, z).shape, 3))
-        out[..., order[0]], out[..., order[1]], out[..., order[2]] = s, y, z
-        return out
-
-    faces = []
-    for radius, outwards in zip(radii, (1.0, -1.0), strict=False):
-        y, z = radius * np.cos(turn), radius * np.sin(turn)
-        for k in range(facets):
-            ends = np.array([-0.5, -0.5, 0.5, 0.5]) * length
-            pick = [k, k + 1, k + 1, k]
-            middle = 0.5 * (turn[k] + turn[k + 1])
-            corners = place(ends, y[pick], z[pick])[:: int(outwards)]
-            rim = np.array([True, False, True, False])
-            normal = outwards * place(0.0, np.cos(middle), np.sin(middle))
-            faces.append(Face(corners, normal, rim))
-    for end in (1.0, -1.0):
-        normal = place(end, 0.0, 0.0)
-        if len(radii) == 1:
-            ring = place(0.5 * end * length, radii[0] * np.cos(turn[:-1]), radii[0] * np.sin(turn[:-1]))[:: int(end)]
-            faces.append(Face(ring, normal, np.ones(facets, dtype=bool)))
-            continue
-        outer, inner = (place(0.5 * end * length, r * np.cos(turn), r * np.sin(turn)) for r in radii)
-        for k in range(facets):
-            corners = np.stack([outer[k], outer[k + 1], inner[k + 1], inner[k]])[:: int(end)]
-            faces.append(Face(corners, normal, np.array([True, False, True, False])))
-    return faces
+    half, outer, inner = 0.5 * length, radii[0], radii[-1]
+    if len(radii) > 1:
+        profile = np.array([(-half, inner), (-half, outer), (half, outer), (half, inner), (-half, inner)])
+        return _lathe(profile, along, facets, RIMS)
+    turn, axis = 2.0 * np.pi * np.arange(facets) / facets, "xyz".index(along)
+    circle, up, whole = np.stack([np.cos(turn), np.sin(turn)], axis=1), np.eye(3)[axis], np.ones(facets, dtype=bool)
+    low, high = np.split(_at_ends(outer * circle, length, axis), 2)
+    walls = _lathe(np.array([(-half, outer), (half, outer)]), along, facets, RIMS)
+    return [*walls, Face(high, up, whole), Face(low[::-1], -up, whole)]
 
 
 def _capsule_profile(radius: float, straight: float) -> Array:
@@ -168,26 +150,26 @@ def _capsule_profile(radius: float, straight: float) -> Array:
     return np.concatenate([(cap * [-1.0, 1.0])[::-1], cap if straight else cap[1:]])
 
 
-def _lathe(profile: Array, along: str, facets: int) -> list[Face]:
-    """The profile (n, 2) turned about its axis; it begins and ends on the axis."""
+def _lathe(profile: Array, along: str, facets: int, outlined: NDArray[np.bool_]) -> list[Face]:
+    """The profile (n, 2), with the solid to the side of the axis, turned about that. outlined : edges of each face."""
     turn = 2.0 * np.pi * np.arange(facets + 1) / facets
     order = [("xyz".index(along) + k) % 3 for k in range(3)]
     faces = []
     for (s0, r0), (s1, r1) in pairwise(profile):
         for a, b in pairwise(turn):
-            ring = [(s0, r0, a), (s1, r1, a), (s1, r1, b), (s0, r0, b)]
+            ring = [(s0, r0, a), (s0, r0, b), (s1, r1, b), (s1, r1, a)]
             corners = np.zeros((4, 3))
             corners[:, order] = [(s, r * np.cos(t), r * np.sin(t)) for s, r, t in ring]
             middle = 0.5 * (a + b)
             normal = np.zeros(3)
             normal[order] = [r0 - r1, (s1 - s0) * np.cos(middle), (s1 - s0) * np.sin(middle)]
-            faces.append(Face(corners, normal / np.linalg.norm(normal), np.zeros(4, dtype=bool)))
+            faces.append(Face(corners, normal / np.linalg.norm(normal), outlined))
     return faces
 
 
 def _ellipsoid(semi_axes: Array, facets: int) -> list[Face]:
     """A ball of radius 1, stretched."""
-    faces = _lathe(_capsule_profile(1.0, 0.0), "z", facets)
+    faces = _lathe(_capsule_profile(1.0, 0.0), "z", facets, SMOOTH)
     for face in faces:
         face.corners = face.corners * semi_axes
         normal = face.normal / semi_axes
@@ -197,28 +179,22 @@ def _ellipsoid(semi_axes: Array, facets: int) -> list[Face]:
 
 def _prism(outline: Array, length: float, along: str) -> list[Face]:
     """The outline (n, 2) drawn along an axis; its ends are triangles, since a face is convex."""
-    axis, first, second = (("xyz".index(along) + k) % 3 for k in range(3))
+    axis, n = "xyz".index(along), len(outline)
     a, b = outline, np.roll(outline, -1, axis=0)
     if np.sum(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) < 0.0:
         outline = outline[::-1]
-    half, n = 0.5 * length, len(outline)
-
-    def at(s: float, corners: Array) -> Array:
-        out = np.empty((len(corners), 3))
-        out[:, axis], out[:, first], out[:, second] = s, corners[:, 0], corners[:, 1]
-        return out
-
+    low, high = np.split(_at_ends(outline, length, axis), 2)
     faces = []
     for k in range(n):
-        side = outline[[k, (k + 1) % n]]
-        corners = np.concatenate([at(-half, side), at(half, side[::-1])])
-        normal = at(0.0, np.array([[side[1, 1] - side[0, 1], side[0, 0] - side[1, 0]]]))[0]
-        faces.append(Face(corners, normal / np.linalg.norm(normal)))
+        side = [k, (k + 1) % n]
+        a, b = outline[side]
+        normal = np.roll([0.0, b[1] - a[1], a[0] - b[0]], axis)
+        faces.append(Face(np.concatenate([low[side], high[side[::-1]]]), normal / np.linalg.norm(normal)))
     for triangle in ears(outline):
         rim = np.array([(j - i) % n == 1 for i, j in pairwise([*triangle, triangle[0]])])
         up = np.eye(3)[axis]
-        faces.append(Face(at(half, outline[list(triangle)]), up, rim))
-        faces.append(Face(at(-half, outline[list(triangle)])[::-1], -up, rim[[1, 0, 2]]))
+        faces.append(Face(high[list(triangle)], up, rim))
+        faces.append(Face(low[list(triangle)][::-1], -up, rim[[1, 0, 2]]))
     return faces
 
 

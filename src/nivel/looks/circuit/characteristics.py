@@ -34,7 +34,6 @@ from nivel.looks.circuit.composed_characteristics import (
     Array,
     Chart,
     Curve,
-    constant,
     root,
     step,
 )
@@ -56,12 +55,11 @@ def valve_charts(record: Mapping[str, Any]) -> tuple[Chart, ...]:
         if isinstance(component, Rating) and component.is_of_gas:
             out.append(_of_gas(component))
             continue
-        for kind, draw in _DRAWN.items():
-            if isinstance(component, kind):
-                chart = draw(component, density)
-                if chart is not None:
-                    out.append(chart)
-    return tuple(out)
+        for kind, (draw, key) in _DRAWN.items():
+            setting = getattr(component, key) if key and isinstance(component, kind) else density
+            if isinstance(component, kind) and isinstance(setting, float | int):
+                out.append(draw(component, float(setting)))
+    return tuple(filter(None, out))
 
 
 def _density(fluid: Mapping[str, Any]) -> float:
@@ -125,23 +123,19 @@ def _opening(valve: Any, setting: float, label: str, across: str, factor: float 
     return Chart(valve.name, valve.type, across, (Curve(label, p / BAR, flow),))
 
 
-def _of_pressure(valve: ReliefValve | CheckValve | SequenceValve | UnloadingValve, _: float) -> Chart | None:
-    setting = constant(valve.opens_at)
+def _of_pressure(valve: ReliefValve | CheckValve | SequenceValve | UnloadingValve, setting: float) -> Chart | None:
+    if isinstance(valve, UnloadingValve) and "X" in valve.ports:
+        return None
     across = {
         "relief-valve": "p_P - p_T, bar",
         "check-valve": "p_A - p_B, bar",
         "sequence-valve": "p_P above its drain, A at the drain, bar",
         "unloading-valve": "p_P above LS, T at LS, bar",
     }[valve.type]
-    if setting is None or (isinstance(valve, UnloadingValve) and "X" in valve.ports):
-        return None
     return _opening(valve, setting, f"opens at {setting / BAR:.4g} bar", across)
 
 
-def _of_counterbalance(valve: CounterbalanceValve, _: float) -> Chart | None:
-    setting = constant(valve.opens_at)
-    if setting is None:
-        return None
+def _of_counterbalance(valve: CounterbalanceValve, setting: float) -> Chart:
     p = np.linspace(0.0, 1.15 * (setting + valve.opening_range), POINTS)
     curves = []
     for pilot in (0.0, 0.1, 0.2):
@@ -151,19 +145,15 @@ def _of_counterbalance(valve: CounterbalanceValve, _: float) -> Chart | None:
     return Chart(valve.name, valve.type, "p_L, V at the pressure of the air, bar", tuple(curves))
 
 
-def _of_cartridge(valve: CartridgeValve, _: float) -> Chart:
-    return _opening(valve, valve.opens_at, "X and B without pressure", "p_A - p_B, bar", valve.area_share)
+def _of_cartridge(valve: CartridgeValve, setting: float) -> Chart:
+    return _opening(valve, setting, "X and B without pressure", "p_A - p_B, bar", valve.area_share)
 
 
-def _of_cross_port(valve: CrossPortRelief, _: float) -> Chart | None:
-    setting = constant(valve.opens_at)
-    return None if setting is None else _opening(valve, setting, "A to B, and B to A", "p_A - p_B, bar")
+def _of_cross_port(valve: CrossPortRelief, setting: float) -> Chart:
+    return _opening(valve, setting, "A to B, and B to A", "p_A - p_B, bar")
 
 
-def _of_reducing(valve: ReducingValve, _: float) -> Chart | None:
-    setting = constant(valve.pressure)
-    if setting is None:
-        return None
+def _of_reducing(valve: ReducingValve, setting: float) -> Chart:
     before = 2.0 * setting
     p = np.linspace(max(setting - 2.0 * valve.opening_range, 0.0), setting + 0.2 * valve.opening_range, POINTS)
     flow = valve.conductance * step((setting - p) / valve.opening_range) * root(before - p, valve.transition)
@@ -177,7 +167,7 @@ def _of_flow_control(valve: FlowControl, _: float) -> Chart:
     return Chart(valve.name, valve.type, "setting", (Curve(f"margin {valve.margin / BAR:.3g} bar", s, flow),))
 
 
-def _of_orifice(valve: Orifice, density: float) -> Chart | None:
+def _of_orifice(valve: Orifice, density: float) -> Chart:
     size = valve.conductance
     if valve.diameter is not None:
         size = valve.discharge_coefficient * 0.25 * math.pi * valve.diameter**2 * math.sqrt(2.0 / density)
@@ -204,18 +194,19 @@ def _of_ejector(valve: Ejector, _: float) -> Chart:
     return Chart(valve.name, valve.type, "vacuum, bar", (curve,))
 
 
-_DRAWN: Final[dict[type | tuple[type, ...], Callable[[Any, float], Chart | None]]] = {
-    SpoolValve: _of_spool,
-    DirectionalValve: _of_directional,
-    Section: _of_section,
-    (ReliefValve, CheckValve, SequenceValve, UnloadingValve): _of_pressure,
-    CounterbalanceValve: _of_counterbalance,
-    CartridgeValve: _of_cartridge,
-    CrossPortRelief: _of_cross_port,
-    ReducingValve: _of_reducing,
-    FlowControl: _of_flow_control,
-    Orifice: _of_orifice,
-    Ejector: _of_ejector,
+# what draws valves, and the setting that it takes, where that does not vary; without one it takes the density of the fluid
+_DRAWN: Final[dict[type | tuple[type, ...], tuple[Callable[[Any, float], Chart | None], str]]] = {
+    SpoolValve: (_of_spool, ""),
+    DirectionalValve: (_of_directional, ""),
+    Section: (_of_section, ""),
+    (ReliefValve, CheckValve, SequenceValve, UnloadingValve): (_of_pressure, "opens_at"),
+    CounterbalanceValve: (_of_counterbalance, "opens_at"),
+    CartridgeValve: (_of_cartridge, "opens_at"),
+    CrossPortRelief: (_of_cross_port, "opens_at"),
+    ReducingValve: (_of_reducing, "pressure"),
+    FlowControl: (_of_flow_control, ""),
+    Orifice: (_of_orifice, ""),
+    Ejector: (_of_ejector, ""),
     **OF_COMPOSED,
 }
 
@@ -236,8 +227,8 @@ def valve_diagram(record: Mapping[str, Any], columns: int = 3) -> str:
 
 
 def _drawn(chart: Chart) -> Iterator[str]:
-    x0, x1 = (float(f(curve.x for curve in chart.curves)) for f in (_least, _most))
-    y1 = 1.08 * float(_most(curve.y for curve in chart.curves)) or 1.0
+    x0, x1 = (float(f([f(curve.x) for curve in chart.curves])) for f in (np.min, np.max))
+    y1 = 1.08 * float(np.max([np.max(curve.y) for curve in chart.curves])) or 1.0
     width, height = WIDE - LEFT - RIGHT, HIGH - TOP - BOTTOM
 
     def at(x: float, y: float) -> tuple[float, float]:
@@ -282,11 +273,3 @@ def _marks(low: float, high: float) -> list[float]:
     each = next(size * factor for factor in (1.0, 2.0, 5.0, 10.0) if size * factor >= raw)
     first = math.ceil(low / each - 1e-9)
     return [round(k * each, 12) for k in range(first, math.floor(high / each + 1e-9) + 1)]
-
-
-def _least(arrays: Iterator[Array]) -> float:
-    return min(float(np.min(each)) for each in arrays)
-
-
-def _most(arrays: Iterator[Array]) -> float:
-    return max(float(np.max(each)) for each in arrays)

@@ -51,11 +51,6 @@ def step(t: Array) -> Array:
     return t * t * (3.0 - 2.0 * t)
 
 
-def constant(value: object) -> float | None:
-    """A setting that does not vary."""
-    return float(value) if isinstance(value, float | int) else None
-
-
 def _edges(valve: Any, across: str, middle: float, openings: dict[str, tuple[float, float]]) -> Chart:
     """Flows of edges at the rated difference of pressure, over the pressure that moves their spool. openings : label → sign of the opening
     with the pressure above `middle`, and share of the flow."""
@@ -74,10 +69,7 @@ def _of_shuttle(valve: ShuttleValve, _: float) -> Chart:
     return _edges(valve, "p_A - p_B, bar", 0.0, {"A to C": (1.0, 1.0), "B to C": (-1.0, 1.0)})
 
 
-def _of_priority(valve: PriorityValve, _: float) -> Chart | None:
-    margin = constant(valve.margin)
-    if margin is None:
-        return None
+def _of_priority(valve: PriorityValve, margin: float) -> Chart:
     return _edges(valve, "p_CF - p_LS, bar", margin, {"P to CF": (-1.0, 1.0), "P to EF": (1.0, 1.0)})
 
 
@@ -86,10 +78,7 @@ def _of_divider(valve: FlowDivider, _: float) -> Chart:
     return _edges(valve, "p_M - p_N, bar", 0.0, {"A": (way, valve.share), "B": (-way, 1.0 - valve.share)})
 
 
-def _of_brake(valve: BrakeValve, _: float) -> Chart | None:
-    setting = constant(valve.opens_at)
-    if setting is None:
-        return None
+def _of_brake(valve: BrakeValve, setting: float) -> Chart:
     middle = setting + 0.5 * valve.opening_range
     return _edges(valve, "p_VB above the air, bar", middle, {"A to VA": (1.0, 1.0)})
 
@@ -105,10 +94,7 @@ def _pilot_chamber(valve: PilotReliefValve | PilotReducingValve, setting: float,
     return 0.5 * (low + high)
 
 
-def _of_pilot_relief(valve: PilotReliefValve, _: float) -> Chart | None:
-    setting = constant(valve.opens_at)
-    if setting is None:
-        return None
+def _of_pilot_relief(valve: PilotReliefValve, setting: float) -> Chart:
     p = np.linspace(0.0, 1.1 * (setting + valve.spring + valve.opening_range + valve.pilot_range), 8 * POINTS)
     x = _pilot_chamber(valve, setting, p)
     opening = step((p - x - valve.spring) / valve.opening_range)
@@ -117,10 +103,7 @@ def _of_pilot_relief(valve: PilotReliefValve, _: float) -> Chart | None:
     return Chart(valve.name, valve.type, "p_P - p_T, bar", (Curve(f"opens at {setting / BAR:.4g} bar", p / BAR, flow),))
 
 
-def _of_pilot_reducing(valve: PilotReducingValve, _: float) -> Chart | None:
-    setting = constant(valve.pressure)
-    if setting is None:
-        return None
+def _of_pilot_reducing(valve: PilotReducingValve, setting: float) -> Chart:
     before, end = 2.0 * setting, setting + valve.pilot_range + valve.spring + valve.opening_range
     p = np.linspace(max(0.0, 2.0 * setting - end), 1.02 * end, 8 * POINTS)
     x = _pilot_chamber(valve, setting, p)
@@ -130,11 +113,11 @@ def _of_pilot_reducing(valve: PilotReducingValve, _: float) -> Chart | None:
     return Chart(valve.name, valve.type, "p_A - p_T, bar", (Curve(label, p / BAR, flow),))
 
 
-OF_COMPOSED: Final[dict[type | tuple[type, ...], Callable[[Any, float], Chart | None]]] = {
-    ShuttleValve: _of_shuttle,
-    PriorityValve: _of_priority,
-    FlowDivider: _of_divider,
-    BrakeValve: _of_brake,
-    PilotReliefValve: _of_pilot_relief,
-    PilotReducingValve: _of_pilot_reducing,
+OF_COMPOSED: Final[dict[type | tuple[type, ...], tuple[Callable[[Any, float], Chart | None], str]]] = {
+    ShuttleValve: (_of_shuttle, ""),
+    PriorityValve: (_of_priority, "margin"),
+    FlowDivider: (_of_divider, ""),
+    BrakeValve: (_of_brake, "opens_at"),
+    PilotReliefValve: (_of_pilot_relief, "opens_at"),
+    PilotReducingValve: (_of_pilot_reducing, "pressure"),
 }

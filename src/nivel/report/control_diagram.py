@@ -128,7 +128,8 @@ def _place(boxes: Mapping[str, Box]) -> tuple[float, float]:
     for column in sorted(columns, reverse=True):
         here = [key for key, box in boxes.items() if box.column == column]
         wished = {
-            key: _mean([row[each] for each in _readers(key, boxes) if each in row], k) for k, key in enumerate(here)
+            key: _mean([row[each] for each, box in boxes.items() if key in box.reads and each in row], k)
+            for k, key in enumerate(here)
         }
         for k, key in enumerate(sorted(here, key=lambda each: wished[each])):
             row[key] = float(k)
@@ -146,10 +147,6 @@ def _set_heights(here: Sequence[Box], boxes: Mapping[str, Box]) -> None:
         before = [boxes[each].y for each in box.reads if boxes[each].column < box.column]
         box.y = max(least, _mean(before, least))
         least = box.y + HIGH + DOWN
-
-
-def _readers(key: str, boxes: Mapping[str, Box]) -> list[str]:
-    return [each for each, box in boxes.items() if key in box.reads]
 
 
 def _mean(values: Sequence[float], otherwise: float) -> float:

@@ -61,10 +61,7 @@ def draw_force(drawing: Drawing, frame: Frame, force: dict[str, Any], poses: dic
     drawing.links.append(f"<g><title>{escape(title)}</title>{sign}</g>")
     drawing.lines.append(ends)
     if force["type"] != "torsional-spring-damper":
-        for body, end in zip(force["bodies"], ends, strict=True):
-            if body == "ground":
-                drawing.links.insert(0, ground_sign(float(end[0]), float(end[1]), 0.8 * frame.sign))
-                drawing.points.append(end + np.array([0.0, 14.0]))
+        _draw_ground(drawing, frame, force["bodies"], ends)
     if not force["name"]:  # a further part of a rope
         return
     middle = 0.5 * (ends[0] + ends[1]) if force["type"] != "torsional-spring-damper" else ends[0]
@@ -73,17 +70,26 @@ def draw_force(drawing: Drawing, frame: Frame, force: dict[str, Any], poses: dic
 
 def _draw_wound(drawing: Drawing, frame: Frame, rope: dict[str, Any], poses: dict[str, Pose]) -> None:
     """Draw a rope around wheels with its name at its longest part."""
-    line = frame.pixels(rope_line(rope, poses))
-    title = f"{rope['name']}: {rope['type']}, {' – '.join(rope['bodies'])}"
+    _draw_line(drawing, rope, rope["bodies"], frame.pixels(rope_line(rope, poses)))
+    _draw_ground(drawing, frame, rope["bodies"], frame.pixels(ends_in_space(rope, poses)))
+
+
+def _draw_line(drawing: Drawing, element: dict[str, Any], joined: list[str], line: Array) -> None:
+    """Draw a rope or belt along a line (n, 2) of pixels with its name at the longest part. joined : what it leads to, by name."""
+    title = f"{element['name']}: {element['type']}, {' – '.join(joined)}"
     drawing.links.append(f"<g><title>{escape(title)}</title>{rope_sign(line)}</g>")
     parts = np.stack([line[:-1], line[1:]], axis=1)
     drawing.lines.extend(parts)
-    for body, end in zip(rope["bodies"], frame.pixels(ends_in_space(rope, poses)), strict=True):
+    x, y = parts[np.argmax(np.linalg.norm(parts[:, 1] - parts[:, 0], axis=1))].mean(axis=0)
+    drawing.labels.append(Label(element["name"], float(x), float(y), "force-name"))
+
+
+def _draw_ground(drawing: Drawing, frame: Frame, bodies: list[str], ends: Array) -> None:
+    """Draw the sign of the ground at those of the ends (n, 2) of pixels that are on it."""
+    for body, end in zip(bodies, ends, strict=True):
         if body == "ground":
             drawing.links.insert(0, ground_sign(float(end[0]), float(end[1]), 0.8 * frame.sign))
             drawing.points.append(end + np.array([0.0, 14.0]))
-    x, y = parts[np.argmax(np.linalg.norm(parts[:, 1] - parts[:, 0], axis=1))].mean(axis=0)
-    drawing.labels.append(Label(rope["name"], float(x), float(y), "force-name"))
 
 
 Plane = tuple[Array, Array]  # normal (3,) and what touches it: feet (n, 3) of the perpendiculars onto it [m], global
@@ -136,12 +142,5 @@ def draw_belt(
 ) -> None:
     """Draw a belt with its name at the middle of a strand."""
     line = belt_line(belt, scene["joints"], poses)
-    if not len(line):
-        return
-    line = frame.pixels(line)
-    title = f"{belt['name']}: {belt['type']}, {' – '.join(belt['joints'])}"
-    drawing.links.append(f"<g><title>{escape(title)}</title>{rope_sign(line)}</g>")
-    parts = np.stack([line[:-1], line[1:]], axis=1)
-    drawing.lines.extend(parts)
-    x, y = parts[np.argmax(np.linalg.norm(parts[:, 1] - parts[:, 0], axis=1))].mean(axis=0)
-    drawing.labels.append(Label(belt["name"], float(x), float(y), "force-name"))
+    if len(line):
+        _draw_line(drawing, belt, belt["joints"], frame.pixels(line))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.report.panel import Array
+from nivel.report.plots import Axis
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
@@ -59,30 +60,18 @@ def _diagram(result: Result, name: str, unit: str, x: Array) -> str:
     """Time over x; stable and unstable stretches, and critical points."""
     t, unstable = result.time, result.array("unstable_directions") > 0
     horizontal, vertical = _ticks(x), _ticks(t)
-    place = _Place(horizontal, vertical)
-    parts = [_grid(place, horizontal, vertical)]
+    across = Axis(horizontal[0], horizontal[-1], LEFT, WIDTH - RIGHT)
+    up = Axis(vertical[0], vertical[-1], HEIGHT - BOTTOM, TOP)
+    parts = [_grid(across, up, horizontal, vertical)]
     for dashed, first, last in _stretches(unstable):
-        points = " ".join(f"{place.x(x[k]):.1f},{place.y(t[k]):.1f}" for k in range(first, last + 1))
+        points = " ".join(f"{across.at(x[k]):.1f},{up.at(t[k]):.1f}" for k in range(first, last + 1))
         parts.append(f'<polyline class="{"unstable" if dashed else "stable"}" points="{points}"/>')
-    parts += [_mark(place, kind, x, t, result.abscissa, at) for kind, at in result.marks]
+    parts += [_mark(across, up, kind, x, t, result.abscissa, at) for kind, at in result.marks]
     bottom = HEIGHT - 6
     parts.append(f'<text class="axis" x="{(LEFT + WIDTH - RIGHT) / 2}" y="{bottom}">{escape(name)} [{unit}]</text>')
     parts.append(f'<text class="axis" x="{LEFT - 30}" y="{TOP - 12}" style="text-anchor:start">t [s]</text>')
     label = escape(f"time over {name}")
     return f'<svg class="load-path" viewBox="0 0 {WIDTH:.0f} {HEIGHT:.0f}" role="img" aria-label="{label}">{"".join(parts)}</svg>'
-
-
-class _Place:
-    """From values to places in the picture."""
-
-    def __init__(self, horizontal: Array, vertical: Array) -> None:
-        self._x, self._y = (horizontal[0], horizontal[-1]), (vertical[0], vertical[-1])
-
-    def x(self, value: float) -> float:
-        return LEFT + (WIDTH - LEFT - RIGHT) * (value - self._x[0]) / (self._x[1] - self._x[0])
-
-    def y(self, value: float) -> float:
-        return HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * (value - self._y[0]) / (self._y[1] - self._y[0])
 
 
 def _ticks(values: Array) -> Array:
@@ -96,14 +85,14 @@ def _ticks(values: Array) -> Array:
     return step * np.arange(first, max(last, first + 1) + 1)
 
 
-def _grid(place: _Place, horizontal: Array, vertical: Array) -> str:
+def _grid(across: Axis, up: Axis, horizontal: Array, vertical: Array) -> str:
     lines = []
     for value in horizontal:
-        x = place.x(value)
+        x = across.at(value)
         lines.append(f'<line class="grid" x1="{x:.1f}" x2="{x:.1f}" y1="{TOP}" y2="{HEIGHT - BOTTOM}"/>')
         lines.append(f'<text class="tick" x="{x:.1f}" y="{HEIGHT - BOTTOM + 15}">{_short(value)}</text>')
     for value in vertical:
-        y = place.y(value)
+        y = up.at(value)
         lines.append(f'<line class="grid" x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{y:.1f}" y2="{y:.1f}"/>')
         lines.append(
             f'<text class="tick" x="{LEFT - 6}" y="{y + 4:.1f}" style="text-anchor:end">{_short(value)}</text>'
@@ -123,8 +112,8 @@ def _stretches(unstable: NDArray[np.bool_]) -> list[tuple[bool, int, int]]:
     return [(bool(between[a]), int(a), int(b)) for a, b in zip(starts, ends, strict=True)]
 
 
-def _mark(place: _Place, kind: str, x: Array, t: Array, along: Array, at: float) -> str:
-    px, py = place.x(float(np.interp(at, along, x))), place.y(float(np.interp(at, along, t)))
+def _mark(across: Axis, up: Axis, kind: str, x: Array, t: Array, along: Array, at: float) -> str:
+    px, py = across.at(float(np.interp(at, along, x))), up.at(float(np.interp(at, along, t)))
     title = f"<title>{kind}</title>"
     if kind == "limit point":
         return f'<circle class="critical" cx="{px:.1f}" cy="{py:.1f}" r="5">{title}</circle>'

@@ -69,13 +69,7 @@ def _mechanism_plots(studies: Studies) -> list[tuple[str, str]]:
         out.append(
             (f"Path of {point.name}", path_drawing(r[:, across], r[:, up], f"{'xyz'[across]} [m]", f"{'xyz'[up]} [m]"))
         )
-        out.append(
-            (
-                f"Curvature of the path of {point.name}",
-                curves([Line("", time, curve["curvature"].to_numpy())], "time [s]", "curvature [1/m]"),
-            )
-        )
-        out.append(
-            (f"Speed of {point.name}", curves([Line("", time, curve["speed"].to_numpy())], "time [s]", "speed [m/s]"))
-        )
+        for title, name, unit in (("Curvature of the path", "curvature", "1/m"), ("Speed", "speed", "m/s")):
+            line = Line("", time, curve[name].to_numpy())
+            out.append((f"{title} of {point.name}", curves([line], "time [s]", f"{name} [{unit}]")))
     return out

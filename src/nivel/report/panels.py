@@ -245,7 +245,8 @@ def _reactions(result: Result, variable: str, title: str, word: str, floor: floa
         return None
     order = np.argsort(-peaks, kind="stable")[:TOGETHER]
     largest = tuple(Curve(names[k], magnitude[:, k], str(i)) for i, k in enumerate(sorted(order)))
-    groups = [Group(_which(len(names)), units, largest, floor=floor)]
+    label = "all, magnitude" if len(names) <= TOGETHER else f"the {TOGETHER} largest, magnitude"
+    groups = [Group(label, units, largest, floor=floor)]
     for k, name in enumerate(names[:GROUPS]):
         curves = (Curve(word, magnitude[:, k], "0"), *components(values[:, k]))
         groups.append(Group(name, units, curves, floor=floor))
@@ -296,7 +297,3 @@ def _iterations(result: Result) -> Panel | None:
     mean, most = found.at(result.time)
     curves = (Curve("mean", mean, "0"), Curve("most", most, "1"))
     return Panel("Iterations per step", (Group("", "1", curves),))
-
-
-def _which(count: int) -> str:
-    return "all, magnitude" if count <= TOGETHER else f"the {TOGETHER} largest, magnitude"

@@ -53,7 +53,7 @@ def reduction_html(body: ReducedBody, findings: Findings) -> str:
         mac=mac_drawing(findings),
         pictures=list(zip(mode_pictures(body, PICTURES), body.frequencies, strict=False)),
         masses=_masses(findings),
-        sums=_sums(findings),
+        sums=[f"{100 * sum(column):.1f}" for column in zip(*findings.effective_mass, strict=True)],
         inertia=_inertia(findings),
         neglect=[(name, f"{100 * value:.2g} %") for name, value in findings.neglect.items()],
     )
@@ -120,10 +120,6 @@ def _masses(findings: Findings) -> list[tuple[str, list[str]]]:
         (f"{frequency:.5g}", [f"{100 * share:.1f}" for share in shares])
         for frequency, shares in zip(findings.normal, findings.effective_mass, strict=False)
     ]
-
-
-def _sums(findings: Findings) -> list[str]:
-    return [f"{100 * sum(column):.1f}" for column in zip(*findings.effective_mass, strict=True)]
 
 
 def _inertia(findings: Findings) -> list[tuple[str, str]]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterator
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
@@ -177,35 +178,21 @@ def _findings(table: Table, name: str) -> dict[str, Any]:
     found = surface(table, name)
     shares = sobol_indices(table, name)
     out: dict[str, Any] = {"surface": None if found is None else _surface(table, found)}
-    out["effects"] = [
-        {"parameter": e.parameter, "low": e.low, "high": e.high, "at_low": e.at_low, "at_high": e.at_high}
-        for e in effects(table, name, found)
-    ]
+    out["effects"] = [asdict(each) for each in effects(table, name, found)]
     if shares is not None:
-        out["sobol"] = {
-            "parameters": list(shares.parameters),
-            "first": shares.first.tolist(),
-            "total": shares.total.tolist(),
-            "first_error": shares.first_error.tolist(),
-            "total_error": shares.total_error.tolist(),
-            "used": shares.used,
-            "samples": shares.samples,
-        }
+        out["sobol"] = _plain(shares)
     return out
+
+
+def _plain(facts: Any) -> dict[str, Any]:
+    """The fields of a record, arrays as lists."""
+    return {name: each.tolist() if isinstance(each, np.ndarray) else each for name, each in asdict(facts).items()}
 
 
 def _surface(table: Table, found: Surface) -> dict[str, Any]:
     middle = [float(np.median(table.parameters[name][table.ended])) for name in found.parameters]
-    return {
-        "parameters": list(found.parameters),
-        "low": found.low.tolist(),
-        "high": found.high.tolist(),
-        "middle": middle,
-        "powers": found.powers.tolist(),
-        "coefficients": found.coefficients.tolist(),
-        "determined": found.determined,
-        "predicted": found.predicted if np.isfinite(found.predicted) else None,
-    }
+    predicted = found.predicted if np.isfinite(found.predicted) else None
+    return {**_plain(found), "middle": middle, "predicted": predicted}
 
 
 SEARCHES: Final = ("optimise", "identify")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import islice
-from typing import Any
 
 import numpy as np
 
@@ -154,7 +153,9 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
         nivel.system.circuit_elements.add_components(builder)
     add_states(builder)
     for force in machine.forces:
-        _add_force(builder, force)
+        owner = f"forces.{force.name}"
+        with located(owner), builder.noting(), builder.within(owner):
+            FORCES[force.type].add(builder, force)
     for beam in machine.beams:
         add_beam(builder, beam)
     if machine.hydraulics:
@@ -215,11 +216,6 @@ def _record(builder: SystemBuilder, rows: RowTable, units: list[str], equations:
         control=_control(count),
     )
     return record, size
-
-
-def _add_force(builder: SystemBuilder, force: Any) -> None:
-    with located(f"forces.{force.name}"), builder.noting(), builder.within(f"forces.{force.name}"):
-        FORCES[force.type].add(builder, force)
 
 
 def _watched(builder: SystemBuilder) -> Watched:

@@ -196,9 +196,8 @@ def newton_tables(
     """
     n, factor = len(place), plan.factor
     size = factor.size
-    dense = factor.fill > MOSTLY_FULL
-    L, U, Dinv, work = factor.workspace() if not dense else (np.zeros(0),) * 4
-    full = size if dense else 0
+    solved = real_factors(factor, n, 0)._asdict()
+    del solved["r"]
     return Newton(
         address=np.zeros(3, dtype=np.uint64),
         place=place,
@@ -216,16 +215,8 @@ def newton_tables(
         correction=np.zeros(n),
         rate=np.zeros(states),
         change=np.zeros(n),
-        value=np.zeros(len(factor.column)),
-        L=L,
-        U=U,
-        Dinv=Dinv,
-        work=work,
-        matrix=np.zeros((full, full)),
-        pivot=np.zeros(full, dtype=np.uint32),
-        b=np.zeros(size),
+        **solved,
         last=np.zeros(max(size, 4)),
-        moved=np.zeros(n),
         before=np.zeros(size),
         moved_before=np.zeros(n),
         lam=np.zeros(rows),

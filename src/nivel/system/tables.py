@@ -15,7 +15,7 @@ from nivel.kernels.bodies.coordinate import ALONG, LAST_ANGLE
 from nivel.kernels.bodies.driven_turn import BASE
 from nivel.kernels.bodies.measure import COMBINED
 from nivel.kernels.record.hook import Family
-from nivel.kernels.record.record import NONE, Coordinates, Elements, Markers
+from nivel.kernels.record.record import NONE, Bodies, Coordinates, Elements, Markers
 from nivel.lazy import dataclass, field
 
 Array = NDArray[np.float64]
@@ -34,6 +34,17 @@ def empty(record_class: type[AnyRecord]) -> AnyRecord:
     return record_class(
         *(np.zeros((0,) * dimensions, get_args(get_args(array)[1])[0]) for array, dimensions, _ in kinds)
     )
+
+
+def longer(array: Array, count: int) -> Array:
+    """A copy with `count` rows, the further ones like the last."""
+    return np.concatenate([array, np.repeat(array[-1:], count - len(array), axis=0)])
+
+
+def work_arrays(bodies: Bodies) -> dict[str, Array]:
+    """What the kernels find of bodies: one row for each, and for the ground."""
+    names = ("R", "theta", "A", "Rdot", "omega", "omega_b", "c", "wrench", "Rddot", "alpha_b")
+    return {name: getattr(bodies, name) for name in names}
 
 
 def padded(rows: list[list[int]] | list[list[float]], fill: float) -> Array:

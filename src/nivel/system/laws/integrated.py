@@ -203,7 +203,7 @@ def _values(function: TimeFunction) -> Callable[[Array], Array]:
     if isinstance(function, PythonLaw):
         raise ModelError(Fault.at("", "a function in Python drives by its `value`, rate and acceleration"))
     if isinstance(function, int | float):
-        return partial(_constant, float(function))
+        return partial(np.full_like, fill_value=float(function))
     return partial(_evaluated, function)
 
 
@@ -233,7 +233,3 @@ def _tree(function: TimeFunction) -> Node | None:
     if isinstance(function, Table) and not _is_exact(function):
         return Lookup(Time(), function.interpolation, tuple(function.times), tuple(function.values))
     return function.tree if isinstance(function, Expression) else None
-
-
-def _constant(value: float, t: Array) -> Array:
-    return np.full_like(t, value)

@@ -85,32 +85,20 @@ def curve_motion_program(kind: str, points: Sequence[float], values: Sequence[fl
     """The program of a curve over time, with its two derivatives as in `motion_program`."""
     program, argument = _Program([TIME]), Time()
     curves = [Lookup(argument, kind, tuple(points), tuple(values), order) for order in range(3)]
-    value, first, second = (program.place_of(curve) for curve in curves)
-    program.leave(1, first)
-    program.leave(2, second)
-    program.end(value)
-    return program.row()
+    return program.motion(*map(program.place_of, curves))
 
 
 def way_program(points: Sequence[float], pieces: NDArray[np.float64]) -> list[float]:
     """The program of polynomials (n - 1, 6) of time between points, with two derivatives as in `motion_program`."""
     program = _Program([TIME])
     time = program.place_of(Time())
-    value, first, second = (program.place_of_pieces(time, points, differentiated(pieces, order)) for order in range(3))
-    program.leave(1, first)
-    program.leave(2, second)
-    program.end(value)
-    return program.row()
+    return program.motion(*(program.place_of_pieces(time, points, differentiated(pieces, order)) for order in range(3)))
 
 
 def motion_program(expression: Expression) -> list[float]:
     """The program of an expression of time alone. Behind it are expected the time, and places for the two derivatives."""
     program, rate = _Program([TIME]), expression.derivative
-    value, first, second = (program.place_of(each.tree) for each in (expression, rate, rate.derivative))
-    program.leave(1, first)
-    program.leave(2, second)
-    program.end(value)
-    return program.row()
+    return program.motion(*(program.place_of(each.tree) for each in (expression, rate, rate.derivative)))
 
 
 class _Program:
@@ -241,9 +229,11 @@ class _Program:
         self._numbers.append(value)
         return -len(self._numbers)
 
-    def leave(self, place: int, value: int) -> None:
-        """Copy what stands at `value`."""
-        self._instructions.append((kernel.COPY, place, value, value))
+    def motion(self, value: int, first: int, second: int) -> list[float]:
+        """The row of a program that ends with the value at a place, and leaves its derivatives behind the argument."""
+        self._instructions += [(kernel.COPY, 1, first, first), (kernel.COPY, 2, second, second)]
+        self.end(value)
+        return self.row()
 
     def end(self, place: int) -> None:
         """The value of the program is what stands at this place."""

@@ -113,7 +113,8 @@ class FmuInstance:
             )
         ]
         refuse(faults)
-        self._instance, self._library = NOTHING, None
+        self._instance = NOTHING
+        self._library: Any = None
         self._kept: list[Any] = []
         self.record = self._record()
         self.handle = Handle(self.record)
@@ -196,15 +197,9 @@ class FmuInstance:
             self.messages.append(text.decode(errors="replace").strip())
 
     def _set_parameters(self) -> None:
-        count = len(self.facts.parameters)
-        if not count:
-            return
         variables = self.description.variables
-        references = (ctypes.c_uint32 * count)(*(variables[name].reference for name, _ in self.facts.parameters))
-        values = (ctypes.c_double * count)(*(value for _, value in self.facts.parameters))
-        sizes = (ctypes.c_size_t(count),) if self.description.version == 3 else ()
-        status = self._call(CALLED[self.description.version][0], references, ctypes.c_size_t(count), values, *sizes)
-        if status > kernel.WARNING:
+        references = np.array([variables[name].reference for name, _ in self.facts.parameters], dtype=np.uint32)
+        if self._transfer(kernel.SET, references, np.array([float(value) for _, value in self.facts.parameters])):
             raise self._fault("refuses its parameters")
 
     @keeps_environment
@@ -285,14 +280,12 @@ class FmuInstance:
         version = self.description.version
         setup, enter, leave = CALLED[version][kernel.SETUP : kernel.INSTANCE]
         begin, end = ctypes.c_double(time), ctypes.c_double(0.0)
-        status = self._call(setup, 0, ctypes.c_double(0.0), begin, 0, end)
-        if version == 2 and status <= kernel.WARNING:
-            status = self._call(enter)
-        if status > kernel.WARNING:
+        failed = self._fails(setup, 0, ctypes.c_double(0.0), begin, 0, end)
+        if failed or (version == 2 and self._fails(enter)):
             return kernel.OF_START
         if self._transfer(kernel.SET, self.record.input_references, self.record.inputs):
             return kernel.OF_VALUES
-        return kernel.OF_START if self._call(leave) > kernel.WARNING else kernel.NONE
+        return kernel.OF_START if self._fails(leave) else kernel.NONE
 
     def _step(self, begin: float, step: float) -> int:
         version, record = self.description.version, self.record
@@ -304,7 +297,7 @@ class FmuInstance:
             first = record.flags.ctypes.data
             more = [ctypes.c_void_p(each) for each in (first, first + 4, first + 8, record.last.ctypes.data)]
         function = CALLED[version][kernel.STEP]
-        if self._call(function, ctypes.c_double(begin), ctypes.c_double(step), 1, *more) > kernel.WARNING:
+        if self._fails(function, ctypes.c_double(begin), ctypes.c_double(step), 1, *more):
             return kernel.OF_STEP
         return kernel.ENDS if record.flags[1] & 255 else kernel.NONE
 
@@ -315,16 +308,19 @@ class FmuInstance:
         version, count = self.description.version, ctypes.c_size_t(len(values))
         sizes = (count,) if version == 3 else ()
         places = (ctypes.c_void_p(references.ctypes.data), count, ctypes.c_void_p(values.ctypes.data))
-        return self._call(CALLED[version][function], *places, *sizes) > kernel.WARNING
+        return self._fails(CALLED[version][function], *places, *sizes)
 
     # --- calls ---
 
     def _function(self, name: str, result: Any) -> Any:
-        return _variadic(self._library, name, result)
+        """A function of the library that takes what it is called with."""
+        function = self._library._FuncPtr((name, self._library))
+        function.restype = result
+        return function
 
     def _call(self, name: str, *arguments: Any) -> int:
         """The status; one that FMI does not know is larger than all others."""
-        return _variadic(self._library, name, ctypes.c_uint)(ctypes.c_void_p(self._instance), *arguments)
+        return self._function(name, ctypes.c_uint)(ctypes.c_void_p(self._instance), *arguments)
 
     def _fails(self, name: str, *arguments: Any) -> bool:
         return self._call(name, *arguments) > kernel.WARNING
@@ -332,13 +328,6 @@ class FmuInstance:
     def _fault(self, what: str) -> ModelError:
         said = f": {self.messages[-1]}" if self.messages else ""
         return ModelError(Fault.at(f"control.{self.facts.block}.file", f"the FMU `{self.facts.file}` {what}{said}"))
-
-
-def _variadic(library: Any, name: str, result: Any) -> Any:
-    """A function of a library that takes what it is called with."""
-    function = library._FuncPtr((name, library))
-    function.restype = result
-    return function
 
 
 def _formatted(text: bytes | None, more: int | None) -> bytes | None:

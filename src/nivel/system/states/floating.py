@@ -24,7 +24,7 @@ from nivel.system.flexible import Bending, Frame, bending_bodies, first_modal_ro
 from nivel.system.joint_frames import marker_place
 from nivel.system.layout import first_columns, with_modal_coordinates
 from nivel.system.system import Array, StateMap, System
-from nivel.system.tables import index_array
+from nivel.system.tables import index_array, longer, work_arrays
 
 Blocks = list[tuple[int, int, int, int]]
 
@@ -173,12 +173,7 @@ def _gradient_sizes(bending: Sequence[Bending]) -> Array:
 
 def _with_frames(bodies: Bodies, frames: int) -> Bodies:
     """With work arrays for frames behind the ground."""
-
-    def longer(array: Array) -> Array:
-        return np.concatenate([array, np.repeat(array[-1:], frames, axis=0)])
-
-    names = ("R", "theta", "A", "Rdot", "omega", "omega_b", "c", "wrench", "Rddot", "alpha_b")
-    return bodies._replace(**{name: longer(getattr(bodies, name)) for name in names})
+    return bodies._replace(**{name: longer(array, len(array) + frames) for name, array in work_arrays(bodies).items()})
 
 
 def _with_modal_blocks(friction: Friction, saddle: Saddle, rows: int) -> Friction:
@@ -198,7 +193,7 @@ def _saddle(old: Record, count: int, bending: Sequence[Bending], at: dict[int, i
     own = int(old.saddle.blocks[0])
     rows: Blocks = []
     table: Blocks = []
-    kept = 0
+    kept = -1  # blocks of the first group
     for group in (old.saddle.block[:own].tolist(), old.saddle.block[own:].tolist()):
         for row, part, marker, body in group:
             rows.append((row, part, marker, body))
@@ -208,9 +203,7 @@ def _saddle(old: Record, count: int, bending: Sequence[Bending], at: dict[int, i
             table.append((len(rows) - 1, at.get(marker, NONE), f, len(rows)))
             if marker in at:
                 rows += [(row, part, marker, int(first[f]) + k) for k in range(int(first[f + 1] - first[f]))]
-        kept = kept or len(rows)
-    if not old.saddle.block[:own].size:
-        kept = 0
+        kept = len(rows) if kept < 0 else kept
     block = index_array(rows, 4)
     groups = [list(range(a, b)) for a, b in old.joints.rows.tolist() if b > a]
     named = {row for group in groups for row in group}

@@ -43,7 +43,7 @@ from nivel.system.states.tree_nodes import (
     width_of,
 )
 from nivel.system.system import Array, StateMap, System
-from nivel.system.tables import index_array
+from nivel.system.tables import index_array, longer, work_arrays
 
 # rows that are whitened together
 LARGEST_BUNDLE = 6
@@ -76,7 +76,7 @@ def arrange(
     machine: MachineRecord, absolute: System, y: Array, rank: int, settings: SimulationSettings
 ) -> tuple[System, Array]:
     """Numbers and state in the joint coordinates of the spanning tree."""
-    nodes = _nodes(machine, absolute.record, tree_of(machine, settings))
+    nodes = placed([joint_node(machine, absolute.record, branch) for branch in tree_of(machine, settings).branches])
     # the freedoms of the tree less those of the machine (points that do not turn included) are the independent rows that are left
     independent = velocities_in(nodes) - (6 * absolute.body_count - rank)
     return in_tree(machine, absolute, poses(absolute, y), nodes, independent)
@@ -139,7 +139,7 @@ def in_tree(
             counted=angles.counted,
             turn=angles.number,
             part=index_array(parts, 4),
-            part_start=_starts([part[0] for part in parts], len(paths)),
+            part_start=np.searchsorted([part[0] for part in parts], np.arange(len(paths) + 1)).astype(np.uint32),
             **path_tables,
             **_reactions(old, nodes),
         ),
@@ -183,11 +183,6 @@ def bodies_of(machine: MachineRecord, joint: Joint) -> tuple[str, str]:
     return first, second
 
 
-def _nodes(machine: MachineRecord, old: Record, tree: SpanningTree) -> list[Node]:
-    """Nodes in the order of the tree."""
-    return placed([joint_node(machine, old, branch) for branch in tree.branches])
-
-
 def _bodies_in(frames: OwnFrames, old: Record) -> Bodies:
     """What is fixed to the bodies, in the frames of these coordinates, and work arrays of their own."""
     bodies, count = old.bodies, len(old.bodies.mass)
@@ -198,20 +193,15 @@ def _bodies_in(frames: OwnFrames, old: Record) -> Bodies:
     steiner = square[:, None, None] * np.eye(3) - np.einsum("bi,bj->bij", centre, centre)
     fixed = {
         # frames at interfaces, behind the ground, have none
-        "centre_b": _longer(np.vstack([centre, np.zeros((1, 3))]), len(frames.axes)),
+        "centre_b": longer(np.vstack([centre, np.zeros((1, 3))]), len(frames.axes)),
         "inertia_b": np.ascontiguousarray(inertia),
         "inertia_origin_b": np.ascontiguousarray(inertia + bodies.mass[:, None, None] * steiner),
     }
-    work = ("R", "theta", "A", "Rdot", "omega", "omega_b", "c", "wrench", "Rddot", "alpha_b")
-    new = bodies._replace(**fixed, **{name: _longer(getattr(bodies, name), len(frames.axes)) for name in work})
+    work = {name: longer(array, len(frames.axes)) for name, array in work_arrays(bodies).items()}
+    new = bodies._replace(**fixed, **work)
     for name in ("R", "Rdot", "omega", "omega_b", "c"):
         getattr(new, name)[count] = 0.0
     return new
-
-
-def _longer(array: Array, count: int) -> Array:
-    """A copy, with further rows like the last one."""
-    return np.concatenate([array, np.repeat(array[-1:], count - len(array), axis=0)])
 
 
 def _markers_in(frames: OwnFrames, markers: Markers) -> Markers:
@@ -325,10 +315,6 @@ def _friction(old: Record, blocks: list[tuple[int, ...]], rows: int, columns: in
         block=index_array(list(pairwise(starts.tolist())), 2),
         change=np.zeros((len(old.friction.columns), columns, 1)),
     )
-
-
-def _starts(rows: list[int], count: int) -> Index:
-    return np.searchsorted(rows, np.arange(count + 1)).astype(np.uint32)
 
 
 def _active(old: Record, nodes: list[Node]) -> Index:

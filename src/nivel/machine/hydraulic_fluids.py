@@ -44,17 +44,14 @@ def _touched(component: Any, nodes: Mapping[str, Any], kinds: Mapping[str, str])
     connected = [node for node in ports.values() if isinstance(node, str)] if isinstance(ports, Mapping) else []
     made = {node: component for node, maker in nodes.items() if maker is component}
     found = {node: nodes[node] for node in connected if node in nodes} | made
-    fluids = {node: entry(maker, "fluid") or _only(kinds) for node, maker in found.items() if _holds_fluid(maker)}
+    only = next(iter(kinds)) if len(kinds) == 1 else None
+    fluids = {node: entry(maker, "fluid") or only for node, maker in found.items() if _holds_fluid(maker)}
     return {node: fluid for node, fluid in fluids.items() if isinstance(fluid, str) and fluid in kinds}
 
 
 def _holds_fluid(maker: Any) -> bool:
     kind = record_of(entry(maker, "type"))
     return kind is not None and "fluid" in kind.model_fields
-
-
-def _only(kinds: Mapping[str, str]) -> str | None:
-    return next(iter(kinds)) if len(kinds) == 1 else None
 
 
 def _of_kind(component: Any, place: Place, gas: bool) -> Faults:

@@ -9,7 +9,7 @@ centre is its origin.
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import Annotated, Any, Final, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
 
 import numpy as np
 from pydantic import BeforeValidator, model_validator
@@ -93,7 +93,24 @@ class Box(_Between):
         return self
 
 
-class Cylinder(_Between):
+class _Long(_Between):
+    """A shape with a length along one of the body's axes."""
+
+    if TYPE_CHECKING:
+        length: Any
+        along: Along | None
+
+    def _extent(self) -> dict[str, object]:
+        return {"length": self.length}
+
+    @model_validator(mode="after")
+    def _along_x(self) -> _Long:
+        if self.along is not None and self.from_ is not None:
+            raise fault("`along` must not be given: between `from` and `to` the shape lies along the body x axis")
+        return self
+
+
+class Cylinder(_Long):
     """A round bar: `radius`, `length` and the body axis it lies `along` (default x); or `radius`, `from` and `to`."""
 
     type: Literal["cylinder"] = "cylinder"
@@ -101,16 +118,8 @@ class Cylinder(_Between):
     length: Maybe[PositiveLength] = Field(default=None, usual=SOLID)
     along: Along | None = Field(default=None, description="body axis; default x")
 
-    def _extent(self) -> dict[str, object]:
-        return {"length": self.length}
 
-    @model_validator(mode="after")
-    def _along_x(self) -> Cylinder:
-        _refuse_along(self)
-        return self
-
-
-class Tube(_Between):
+class Tube(_Long):
     """A hollow round bar: `outer_radius`, `inner_radius`, `length` and `along` (default x); or the radii, `from` and
     `to`.
     """
@@ -121,20 +130,16 @@ class Tube(_Between):
     length: Maybe[PositiveLength] = Field(default=None, usual=SOLID)
     along: Along | None = Field(default=None, description="body axis; default x")
 
-    def _extent(self) -> dict[str, object]:
-        return {"length": self.length}
-
     @model_validator(mode="after")
     def _hollow(self) -> Tube:
         if self.inner_radius >= self.outer_radius:
             raise fault(
                 f"`inner_radius` {self.inner_radius:g} m must be smaller than `outer_radius` {self.outer_radius:g} m"
             )
-        _refuse_along(self)
         return self
 
 
-class Capsule(_Between):
+class Capsule(_Long):
     """A round bar with hemispheres at its ends: `radius`, `length` of the straight part and `along` (default x); or `radius`,
     `from` and `to`, the centres of the balls.
     """
@@ -146,19 +151,11 @@ class Capsule(_Between):
     )
     along: Along | None = Field(default=None, description="body axis; default x")
 
-    def _extent(self) -> dict[str, object]:
-        return {"length": self.length}
-
-    @model_validator(mode="after")
-    def _along_x(self) -> Capsule:
-        _refuse_along(self)
-        return self
-
 
 Corner = Annotated[TwoNumbers[Length], BeforeValidator(listed)]
 
 
-class Extrusion(_Between):
+class Extrusion(_Long):
     """A prism: an `outline`, drawn along `length` to both sides of it, and `along` (default x); or the outline, `from` and `to`.
 
     The outline's corners are given in the two body axes that follow `along`: y and z for x, z and x for y, x and y for z.
@@ -171,12 +168,8 @@ class Extrusion(_Between):
     length: Maybe[PositiveLength] = Field(default=None, usual=SOLID)
     along: Along | None = Field(default=None, description="body axis; default x")
 
-    def _extent(self) -> dict[str, object]:
-        return {"length": self.length}
-
     @model_validator(mode="after")
     def _sound(self) -> Extrusion:
-        _refuse_along(self)
         why = bad_outline(np.array(self.outline, dtype=float).reshape(-1, 2))
         if why:
             raise fault(f"`outline`: {why}")
@@ -246,8 +239,3 @@ class Ellipsoid(_Coloured):
 Shape = Annotated[Box | Cylinder | Capsule | Tube | Sphere | Ellipsoid | Extrusion | Mesh, Field(discriminator="type")]
 Long = Box | Cylinder | Capsule | Tube | Extrusion  # those that may be laid between two points
 Standing = Sphere | Ellipsoid | Mesh  # those that may not
-
-
-def _refuse_along(shape: Cylinder | Capsule | Tube | Extrusion) -> None:
-    if shape.along is not None and shape.from_ is not None:
-        raise fault("`along` must not be given: between `from` and `to` the shape lies along the body x axis")

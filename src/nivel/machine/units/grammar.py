@@ -69,7 +69,7 @@ class _Parser:
 
     def __init__(self, text: str) -> None:
         self.text = text
-        self.tokens = _tokens(text)
+        self.tokens = placed_tokens(text)
         self.at = 0
         self.depth = 0
 
@@ -104,7 +104,7 @@ class _Parser:
 
     def word(self) -> str:
         """`and` or `or`, which stand between conditions; else nothing."""
-        text = self.tokens[self.at][1] if self.at < len(self.tokens) else ""
+        text = self.tokens[self.at].text if self.at < len(self.tokens) else ""
         return text if text in LOGICAL else ""
 
     def sum(self) -> Node:
@@ -141,7 +141,7 @@ class _Parser:
 
     def follows_number(self) -> bool:
         """A unit may stand directly after a number, a closing parenthesis or another unit."""
-        kind, text = self.tokens[self.at - 1]
+        kind, text, *_ = self.tokens[self.at - 1]
         return kind == "number" or text == ")" or (kind == "name" and (text in UNITS or text in CONSTANTS))
 
     def sign(self) -> Node:
@@ -168,9 +168,7 @@ class _Parser:
 
     def unit(self) -> Node:
         name = self.take()
-        if self.symbol() == "(":
-            raise ExpressionError(f"`*` is missing before `{name}`")
-        if "." in name:
+        if self.symbol() == "(" or "." in name:
             raise ExpressionError(f"`*` is missing before `{name}`")
         return self.raised(replace(named, place="unit") if isinstance(named := _named(name), Name) else named)
 
@@ -205,14 +203,14 @@ class _Parser:
             raise ExpressionError("the expression is nested too deeply")
 
     def kind(self) -> str:
-        return self.tokens[self.at][0] if self.at < len(self.tokens) else "end"
+        return self.tokens[self.at].kind if self.at < len(self.tokens) else "end"
 
     def symbol(self) -> str:
-        return self.tokens[self.at][1] if self.kind() == "symbol" else ""
+        return self.tokens[self.at].text if self.kind() == "symbol" else ""
 
     def take(self) -> str:
         self.at += 1
-        return self.tokens[self.at - 1][1]
+        return self.tokens[self.at - 1].text
 
     def expect(self, symbol: str) -> None:
         if self.symbol() != symbol:
@@ -222,7 +220,7 @@ class _Parser:
     def unexpected(self, hint: str = "") -> ExpressionError:
         if self.at >= len(self.tokens):
             return ExpressionError(f"the expression ends too early{hint}")
-        return ExpressionError(f"`{self.tokens[self.at][1]}` was not expected here{hint}")
+        return ExpressionError(f"`{self.tokens[self.at].text}` was not expected here{hint}")
 
 
 def _is_of_units(node: Node, *, product: bool = False) -> bool:
@@ -281,17 +279,8 @@ class Token(NamedTuple):
 
 
 def placed_tokens(text: str) -> list[Token]:
-    """The tokens of `text`, which has been read."""
-    tokens, at, end = [], 0, len(text.rstrip())
-    while at < end and (found := _TOKEN.match(text, at)):
-        kind = str(found.lastgroup)
-        tokens.append(Token(kind, found.group(kind), *found.span(kind)))
-        at = found.end()
-    return tokens
-
-
-def _tokens(text: str) -> list[tuple[str, str]]:
-    tokens: list[tuple[str, str]] = []
+    """The tokens of `text`. Raises ExpressionError."""
+    tokens: list[Token] = []
     at, parts, end = 0, 0, len(text.rstrip())
     while at < end:
         found = _TOKEN.match(text, at)
@@ -299,9 +288,10 @@ def _tokens(text: str) -> list[tuple[str, str]]:
             sign = text[at:].lstrip()[0]
             hint = "; numbers that vary are hardly ever equal: write `<` or `>`" if sign in "=!" else ""
             raise ExpressionError(f"`{sign}` is not understood{hint}")
-        tokens.append((str(found.lastgroup), found.group(str(found.lastgroup))))
+        kind = str(found.lastgroup)
+        tokens.append(Token(kind, found.group(kind), *found.span(kind)))
         at = found.end()
-        parts += tokens[-1][0] != "number" and tokens[-1][1] != ","
+        parts += kind != "number" and tokens[-1].text != ","
         if parts > _MOST_TOKENS or len(tokens) > _MOST_LISTED:
             raise ExpressionError("the expression is too long; split it with `parameters:`")
     if not tokens:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -164,36 +165,29 @@ def _write(
 
 
 def _say(facts: dict[str, Any], to_standard_error: bool) -> None:
-    """The facts as tables for people: on standard output, unless JSON is there."""
+    """The facts for people: on standard output, unless JSON is there."""
     out = console(stderr=to_standard_error)
-    out.print(f"{facts['body']}: largest stress at {facts['worst_time']:.6g} s", markup=False)
+    for line in _lines(facts):
+        out.print(line, markup=False, soft_wrap=True)
+
+
+def _lines(facts: dict[str, Any]) -> Iterator[str]:
+    yield f"{facts['body']}: largest stress at {facts['worst_time']:.6g} s"
     for spot in facts["hot_spots"]:
         place = ", ".join(f"{x:.4g}" for x in spot["position"])
-        out.print(
+        yield (
             f"  {spot['von_mises'] / 1e6:.5g} MPa von Mises, {spot['signed_principal'] / 1e6:+.5g} MPa signed principal at "
-            f"{spot['time']:.6g} s, node {spot['node']} {spot['station']} ({place}) m",
-            markup=False,
-            soft_wrap=True,
+            f"{spot['time']:.6g} s, node {spot['node']} {spot['station']} ({place}) m"
         )
     for state in facts["states"]:
         where = f"node {state['node']} {state['station']}".strip()
-        out.print(
-            f"at {state['time']:.6g} s: {state['von_mises'] / 1e6:.5g} MPa at {where}, displacement up to "
-            f"{1e3 * state['displacement']:.5g} mm",
-            markup=False,
-            soft_wrap=True,
-        )
+        most = f"{state['von_mises'] / 1e6:.5g} MPa at {where}, displacement up to {1e3 * state['displacement']:.5g} mm"
+        yield f"at {state['time']:.6g} s: {most}"
     for node in facts["nodes"]:
-        out.print(
+        yield (
             f"node {node['node']}: von Mises up to {node['von_mises'] / 1e6:.5g} MPa at {node['time']:.6g} s; signed principal "
-            f"{node['least'] / 1e6:+.5g} to {node['greatest'] / 1e6:+.5g} MPa {node['station']}".rstrip(),
-            markup=False,
-            soft_wrap=True,
+            f"{node['least'] / 1e6:+.5g} to {node['greatest'] / 1e6:+.5g} MPa {node['station']}".rstrip()
         )
         for low, high, number in node["cycles"]:
-            out.print(f"  {number:g} cycles of {low / 1e6:.4g} to {high / 1e6:.4g} MPa", markup=False)
-    out.print(
-        f"trust: {nivel.results.trust.told(facts['trust']['verdict'], facts['trust']['headline'])}",
-        markup=False,
-        soft_wrap=True,
-    )
+            yield f"  {number:g} cycles of {low / 1e6:.4g} to {high / 1e6:.4g} MPa"
+    yield f"trust: {nivel.results.trust.told(facts['trust']['verdict'], facts['trust']['headline'])}"

@@ -187,7 +187,7 @@ def _exact(machine: MachineRecord, settings: Mapping[str, Any], pace: Pace) -> A
     try:
         plan, finer = live_plan(machine, {**settings, "step": 0.5 * pace.step}, pace.tick)
         run = _Run(prepared_run(plan, finer), moved=True)
-        return run.places() if run.go() == BUDGET_SPENT else None
+        return run.places() if run.loop() == BUDGET_SPENT else None
     except ModelError:
         return None
 
@@ -195,12 +195,12 @@ def _exact(machine: MachineRecord, settings: Mapping[str, Any], pace: Pace) -> A
 def _cost(name: str, plan: Plan, pace: Pace, exact: Array | None, *, at_rest: bool) -> Cost:
     """at_rest : a method that does not stand moved levers is timed with levers at rest."""
     run, note, off = _Run(prepared_run(plan, pace), moved=True), "", nan
-    if run.go() == BUDGET_SPENT:
+    if run.loop() == BUDGET_SPENT:
         off = nan if exact is None else float(np.max(np.linalg.norm(run.places() - exact, axis=1), initial=0.0))
     else:
         note = f"with moved levers the run ends at {int(run.live.control[DONE]) * pace.tick:.4g} s"
         run = _Run(prepared_run(plan, pace), moved=False)
-        if not at_rest or run.go() != BUDGET_SPENT:
+        if not at_rest or run.loop() != BUDGET_SPENT:
             return Cost(name, None, {}, note)
         note = f"{note}: this is with levers at rest"
     timing = timing_of(run.live)
@@ -256,10 +256,6 @@ class _Run:
         newest = self.live.frames[int(self.live.control[SHOWN] - 1) % len(self.live.frames)]
         layout = self.its.prepared.motion.system.layout.variables
         return np.concatenate([newest[each.columns] for each in layout if each.name in ("position", "orientation")])
-
-    def go(self) -> int:
-        """Tick until the end. Returns a status."""
-        return self.loop()
 
     def places(self) -> Array:
         """Positions (bodies, 3) where the run is now."""

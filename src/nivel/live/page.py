@@ -164,13 +164,11 @@ def _columns_of(picture: Picture) -> local.LocalPicture:
 def _light(result: Result, layout: FrameLayout) -> dict[str, Any]:
     """Names of all columns, and what the light looks at; `result` has the first frame."""
     names = columns(result)
-    first = {each.name: each.columns.start for each in layout.variables}
     span = {each.name: each.columns for each in layout.variables}
     size = machine_size(result)[0]
     watched = [*_watched(result, span, size)]
-    speeds = local.Speeds(
-        first.get("velocity", 0), first.get("angular_velocity", 0), reaches(result).tolist(), REST * size
-    )
+    v, w = (span[name].start if name in span else 0 for name in ("velocity", "angular_velocity"))
+    speeds = local.Speeds(v, w, reaches(result).tolist(), REST * size)
     return {"names": [f"{each} [{result.units(each)}]" for each in names], "watched": watched, "speeds": speeds}
 
 

@@ -134,7 +134,7 @@ class _Kept:
     whole: bool = True
 
 
-def _kept_in(file: IO[bytes], start: int) -> list[_Kept]:
+def _kept_in(file: IO[bytes], start: int, *, last_whole: bool) -> list[_Kept]:
     """The parts of a journal whose blocks begin at `start`."""
     out: list[_Kept] = []
     for block in blocks_in(file, start):
@@ -147,6 +147,8 @@ def _kept_in(file: IO[bytes], start: int) -> list[_Kept]:
             out[-1].frames.append(block)
         elif block.kind == GAP:
             out[-1].whole = False
+    if out and not last_whole:
+        out[-1].whole = False
     return out
 
 
@@ -157,9 +159,7 @@ def _columns(blocks: Sequence[Block]) -> int:
 def parts_in(file: IO[bytes], *, last_whole: bool) -> list[Part]:
     """The parts of a journal. last_whole : whether the last one ends where its motion did. Raises ValueError."""
     _, start = about_in(file)
-    kept = _kept_in(file, start)
-    if kept and not last_whole:
-        kept[-1].whole = False
+    kept = _kept_in(file, start, last_whole=last_whole)
     # a part without a tick has the columns of the others
     inputs = max((_columns(each.tape) for each in kept), default=1)
     width = max((_columns(each.frames) for each in kept), default=1)
@@ -180,9 +180,7 @@ def complete(journal: Journal, target: Path, *, last_whole: bool) -> None:
     """
     file = journal.file
     about, start = about_in(file)
-    kept = _kept_in(file, start)
-    if kept and not last_whole:
-        kept[-1].whole = False
+    kept = _kept_in(file, start, last_whole=last_whole)
     about["parts"] = [[each.before, each.ticks, each.whole] for each in kept]
     with whole(target) as draft, ZipFile(draft, "w", ZIP_DEFLATED) as archive:
         with archive.open("about.npy", "w") as out:

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
 from nivel.errors import Fault
 from nivel.exchange.mechanism import WORLD, Array, Connection, Frame, Inertial, Link, Mechanism
+from nivel.exchange.translation import Names, triple, turn
 from nivel.lazy import dataclass, field
 from nivel.machine.bodies.inertia import impossible, point_mass_inertia
 from nivel.machine.core.orientation import Orientation, rotation_matrix
+from nivel.machine.core.record import GROUND
 
 FLOOR: Final = 1e-11  # of the largest principal moment: the least one that a moment by round-off is raised to
 # of the largest moment: by so much a moment may be negative or too large by the round-off of its file
@@ -155,6 +157,15 @@ def marker_frame(mechanism: Mechanism, group: Group, name: str) -> Frame:
     """The frame of a link in that of its body."""
     place = mechanism.links[name].place
     return place if group.first == WORLD else mechanism.links[group.first].place.inverse @ place
+
+
+def marker_on(link: str, inside: Frame, mechanism: Mechanism, groups: dict[str, Group], names: Names) -> dict[str, Any]:
+    """The marker of a machine file whose frame `inside` is given in a link."""
+    group = groups[link]
+    frame = inside if link == WORLD else marker_frame(mechanism, group, link) @ inside
+    body = GROUND if group.first == WORLD else names.name("body", group.first)
+    place = {"position": triple(frame.origin)} if np.any(frame.origin) else {}
+    return {"body": body, **place, **turn(frame.axes)}
 
 
 def offset(mechanism: Mechanism, groups: dict[str, Group]) -> None:

@@ -10,12 +10,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.exchange.bodies import Group, marker_frame
+from nivel.exchange.bodies import Group, marker_on
 from nivel.exchange.looks import Drawing, NotFoundError
 from nivel.exchange.mechanism import WORLD, Array, Frame, Look, Mechanism, Solid, Surface, Touch
-from nivel.exchange.translation import Names, number, triple, turn
+from nivel.exchange.translation import Names, number
 from nivel.lazy import scipy
-from nivel.machine.core.record import GROUND
 
 ROUND: Final = ("sphere", "capsule", "ellipsoid")
 CORNERS: Final = 48  # of the hull of a mesh: of two hulls the faces are compared in pairs
@@ -108,9 +107,8 @@ def _pair(mechanism: Mechanism, groups: dict[str, Group], drawing: Drawing) -> N
         mechanism.notes.change(f"{BELOW}: at z = {lowest:.4g} m")
     ends_of = [[groups[name].first for name in each.bodies] for each in mechanism.connections]
     joined = {frozenset(each) for each in ends_of}
-    for name in (
-        name for name, each in mechanism.links.items() if each.inertial is None
-    ):  # between the axes of a joint
+    between_axes = (name for name, each in mechanism.links.items() if each.inertial is None)
+    for name in between_axes:
         near = {end for each in ends_of if name in each for end in each}
         joined |= {frozenset((one, other)) for one in near for other in near}
     masses = {name: _mass(mechanism, part) for name, part in _components(mechanism).items()}
@@ -216,17 +214,14 @@ def _add_marker(
     drawing: Drawing,
 ) -> float:
     """Add the marker of a solid; returns the area [m²] of its middle side, 0 where it cannot touch."""
-    group, look = groups[solid.link], solid.look
-    frame = look.place if solid.link == WORLD else marker_frame(mechanism, group, solid.link) @ look.place
+    look = solid.look
     try:
         shape, area = _shape(solid, mechanism, drawing)
     except (NotFoundError, scipy.spatial.QhullError) as problem:
         why = str(problem) if isinstance(problem, NotFoundError) else "a flat mesh"
         mechanism.notes.leave(f"contacts: {why}", solid.name, look.line, acts=True)
         return 0.0
-    body = GROUND if group.first == WORLD else names.name("body", group.first)
-    place = {"position": triple(frame.origin)} if np.any(frame.origin) else {}
-    markers[names.name("marker", solid.name)] = {"body": body, **place, **turn(frame.axes), **shape}
+    markers[names.name("marker", solid.name)] = marker_on(solid.link, look.place, mechanism, groups, names) | shape
     return area
 
 

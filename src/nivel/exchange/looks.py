@@ -102,24 +102,16 @@ class Drawing:
         centre = {"centre": triple(at.origin)} if np.any(at.origin) else {}
         if look.kind == "sphere":
             return {"type": "sphere", "radius": number(look.sizes[0]), **centre}
-        order = np.argmax(np.abs(at.axes), axis=0)
-        straight = bool(np.all(np.abs(at.axes).max(axis=0) > 1.0 - ALONG))
-        if look.kind == "ellipsoid" and straight:
-            semi_axes = [0.0, 0.0, 0.0]
-            for k, size in enumerate(look.sizes):
-                semi_axes[int(order[k])] = number(size)
-            return {"type": "ellipsoid", "semi_axes": semi_axes, **centre}
-        if look.kind == "ellipsoid" or (
-            not straight and not (look.kind != "box" and np.abs(at.axes[:, 2]).max() > 1.0 - ALONG)
-        ):
+        key = {"box": "size", "ellipsoid": "semi_axes"}.get(look.kind)
+        order = np.argmax(np.abs(at.axes), axis=0).tolist()
+        straight = np.abs(at.axes).max(axis=0) > 1.0 - ALONG
+        if not (straight.all() if key else straight[2]):
             return self.surface(name, _solid(look), at)
-        if look.kind == "box":
-            sizes = [0.0, 0.0, 0.0]
-            for k, size in enumerate(look.sizes):
-                sizes[int(order[k])] = number(size)
-            return {"type": "box", "size": sizes, **centre}
+        if key:
+            sizes = dict(zip(order, map(number, look.sizes), strict=True))
+            return {"type": look.kind, key: [sizes[k] for k in range(3)], **centre}
         radius, length = map(number, look.sizes)
-        return {"type": look.kind, "radius": radius, "length": length, "along": "xyz"[int(order[2])], **centre}
+        return {"type": look.kind, "radius": radius, "length": length, "along": "xyz"[order[2]], **centre}
 
     def surface(self, name: str, surface: tuple[Array, Triangles], at: Frame) -> dict[str, Any]:
         """A mesh that has to be written; its points are in the frame of the body."""
@@ -232,10 +224,7 @@ def _lathe(rings: list[tuple[float, float]]) -> tuple[Array, Triangles]:
     """Surface of revolution about z through rings (radius, height), from below."""
     turn = 2.0 * np.pi * np.arange(ROUND) / ROUND
     points = np.array([[r * np.cos(a), r * np.sin(a), z] for r, z in rings for a in turn])
-    triangles = []
-    for k in range(len(rings) - 1):
-        for i in range(ROUND):
-            a, b = k * ROUND + i, k * ROUND + (i + 1) % ROUND
-            c, d = a + ROUND, b + ROUND
-            triangles += [(a, b, d), (a, d, c)]
-    return points, np.array(triangles, dtype=np.uint32)
+    a = np.arange((len(rings) - 1) * ROUND)
+    b = a - a % ROUND + (a + 1) % ROUND
+    c, d = a + ROUND, b + ROUND
+    return points, np.stack([a, b, d, a, d, c], axis=1).reshape(-1, 3).astype(np.uint32)

@@ -17,6 +17,7 @@ from nivel.exchange.bodies import (
     inertia_about,
     lumped,
     marker_frame,
+    marker_on,
     move_to,
     offset,
     possible,
@@ -321,8 +322,8 @@ def _markers_at(
     """Global frames as markers of the two bodies of a joint."""
     out = []
     for name, body, frame in zip(each.bodies, bodies, frames, strict=True):
-        group = groups[name]
-        inside = frame if group.first == WORLD else mechanism.links[group.first].place.inverse @ frame
+        first = groups[name].first
+        inside = frame if first == WORLD else mechanism.links[first].place.inverse @ frame
         out.append({"body": body, "position": triple(inside.origin), **turn(inside.axes)})
     return out
 
@@ -331,17 +332,9 @@ def _markers(mechanism: Mechanism, groups: dict[str, Group], names: Names) -> di
     """Frames of links that became part of another body."""
     out = {}
     for name, group in groups.items():
-        if name in (WORLD, group.first):
-            continue
-        frame = marker_frame(mechanism, group, name)
-        body = GROUND if group.first == WORLD else names.name("body", group.first)
-        place = {"position": triple(frame.origin)} if np.any(frame.origin) else {}
-        out[names.name("marker", name)] = {"body": body, **place, **turn(frame.axes)}
-        mechanism.notes.change("links on fixed joints are parts of their bodies, their frames are markers", name)
+        if name not in (WORLD, group.first):
+            out[names.name("marker", name)] = marker_on(name, Frame(), mechanism, groups, names)
+            mechanism.notes.change("links on fixed joints are parts of their bodies, their frames are markers", name)
     for name, link, inside in mechanism.sites:
-        group = groups[link]
-        frame = inside if link == WORLD else marker_frame(mechanism, group, link) @ inside
-        body = GROUND if group.first == WORLD else names.name("body", group.first)
-        place = {"position": triple(frame.origin)} if np.any(frame.origin) else {}
-        out[names.name("marker", name)] = {"body": body, **place, **turn(frame.axes)}
+        out[names.name("marker", name)] = marker_on(link, inside, mechanism, groups, names)
     return out

@@ -198,11 +198,8 @@ def _repeated(element: Element, times: int) -> Iterator[tuple[Element, int]]:
         each, count = stack.pop()
         if each.tag in ("replicate", "composite", "flexcomp"):
             for word in each.get("count", "1").split():
-                count *= (
-                    abs(int(float(word)))
-                    if word.replace(".", "").replace("e", "").isalnum() and word[0].isdigit()
-                    else 1
-                )
+                number = _number(word)
+                count *= 1 if number is None or not np.isfinite(number) else abs(int(number))
             yield each, count
         stack += [(child, count) for child in each.children]
 
@@ -328,8 +325,7 @@ class _Reader:
             return None
         look = self.solid(g)
         if look is None or look.kind == "plane":
-            kind = self.mj.mjtGeom(int(self.m.geom_type[g])).name.removeprefix("mjGEOM_").lower()
-            self.mechanism.notes.leave(f"looks: geoms of type {kind}", name)
+            self.mechanism.notes.leave(f"looks: geoms of type {self._kind(g)}", name)
             return None
         return look
 
@@ -342,25 +338,20 @@ class _Reader:
         )
         place = self._frame(m.geom_pos[g], self._quaternion(m.geom_quat[g]))
         common: dict[str, Any] = {"place": place, "colour": digits(colour)}
-        match self.mj.mjtGeom(int(m.geom_type[g])).name:
-            case "mjGEOM_SPHERE":
-                return Look("sphere", sizes=(float(size[0]),), **common)
-            case "mjGEOM_CAPSULE":
-                return Look("capsule", sizes=(float(size[0]), 2.0 * float(size[1])), **common)
-            case "mjGEOM_CYLINDER":
-                return Look("cylinder", sizes=(float(size[0]), 2.0 * float(size[1])), **common)
-            case "mjGEOM_BOX":
-                return Look("box", sizes=tuple(2.0 * float(each) for each in size), **common)
-            case "mjGEOM_ELLIPSOID":
-                return Look("ellipsoid", sizes=tuple(map(float, size)), **common)
-            case "mjGEOM_MESH":
+        match self._kind(g):
+            case "sphere" | "capsule" | "cylinder" | "box" | "ellipsoid" | "plane" as kind:
+                factors = {"sphere": (1.0,), "box": (2.0, 2.0, 2.0), "ellipsoid": (1.0, 1.0, 1.0), "plane": ()}
+                sizes = zip(factors.get(kind, (1.0, 2.0)), size.tolist(), strict=False)
+                return Look(kind, sizes=tuple(factor * each for factor, each in sizes), **common)
+            case "mesh":
                 k = int(m.geom_dataid[g])
                 vertices = m.mesh_vert[m.mesh_vertadr[k] : m.mesh_vertadr[k] + m.mesh_vertnum[k]].astype(float)
                 faces = m.mesh_face[m.mesh_faceadr[k] : m.mesh_faceadr[k] + m.mesh_facenum[k]]
                 return Look("surface", surface=(vertices, faces.astype(np.uint32)), **common)
-            case "mjGEOM_PLANE":
-                return Look("plane", **common)
         return None
+
+    def _kind(self, g: int) -> str:
+        return self.mj.mjtGeom(int(self.m.geom_type[g])).name.removeprefix("mjGEOM_").lower()
 
     def _site(self, s: int) -> None:
         m = self.m

@@ -35,15 +35,13 @@ class _Writer:
     def document(self) -> str:
         """The whole document."""
         machine, out = self.tree.machine, Lines()
-        self.out = inside = Lines()
-        inside.start("worldbody")
+        self.out.start("worldbody")
         self._markers(GROUND)
         for branch in self.tree.children(GROUND):
             self._body(branch)
-        inside.end()
+        self.out.end()
         self._equalities()
         self._actuators()
-        body = inside.text().partition("\n")[2]
         out.start("mujoco", model=machine.name)
         out.element("compiler", angle="radian", autolimits="true", inertiafromgeom="false", balanceinertia="false")
         step = machine.simulation.step
@@ -53,13 +51,10 @@ class _Writer:
             for file in self.meshes:
                 out.element("mesh", name=_mesh_name(file), file=file, inertia="shell")
             out.end()
-        head = out.text()
-        notes = Lines()
-        notes.comment([f"Written by nivel from the machine {machine.name}.", *self.tree.notes.lines()])
-        comment = notes.text().partition("\n")[2]
-        first, rest = head.split("\n", 1)
-        lines = "\n".join(f"  {line}" for line in body.splitlines())
-        return f"{first}\n{comment}{rest}{lines}\n</mujoco>\n"
+        out.add(self.out)
+        out.end()
+        out.comment([f"Written by nivel from the machine {machine.name}.", *self.tree.notes.lines()])
+        return out.text()
 
     def _body(self, branch: Branch) -> None:
         out, body = self.out, branch.body

@@ -18,15 +18,14 @@ WAY = 1e4  # [m or rad] the other end of a way that has one end
 def urdf(machine: MachineRecord, folder: str) -> tuple[str, dict[str, bytes], list[str]]:
     """The document, the meshes that belong to it by file name, and the notes. folder : of meshes. Raises ModelError."""
     tree, out, meshes = kinematic_tree(machine), Lines(), {}
-    body = Lines()
-    body.start("robot", name=machine.name)
-    body.element("link", name=WORLD)
-    _frames(body, tree, GROUND, WORLD)
+    out.start("robot", name=machine.name)
+    out.element("link", name=WORLD)
+    _frames(out, tree, GROUND, WORLD)
     for branch in tree.branches:
-        _link(body, tree, branch, folder, meshes)
-        _joints(body, tree, branch)
-        _frames(body, tree, branch.body.name, branch.body.name)
-    body.end()
+        _link(out, tree, branch, folder, meshes)
+        _joints(out, tree, branch)
+        _frames(out, tree, branch.body.name, branch.body.name)
+    out.end()
     for joint in tree.loops:
         tree.notes.leave("joints that close loops: a URDF is a tree", joint.name)
     for at in ("stiffness", "armature"):
@@ -38,8 +37,7 @@ def urdf(machine: MachineRecord, folder: str) -> tuple[str, dict[str, bytes], li
     if any(machine.gravity):
         tree.notes.leave("gravity, which is no part of URDF")
     out.comment([f"Written by nivel from the machine {machine.name}.", *tree.notes.lines()])
-    head, _, rest = body.text().partition("\n")
-    return f"{head}\n{out.text().partition(chr(10))[2]}{rest}", meshes, tree.notes.lines()
+    return out.text(), meshes, tree.notes.lines()
 
 
 def _angles(axes: np.ndarray) -> tuple[float, float, float]:

@@ -25,9 +25,13 @@ class Lines:
         self._open: list[str] = []
 
     def comment(self, lines: Iterable[str]) -> None:
-        """A comment of several lines."""
+        """A comment of several lines, before the first element."""
         text = "\n     ".join(each.replace("--", "- -") for each in lines)
-        self._lines.append(f"<!-- {text}\n-->")
+        self._lines.insert(1, f"<!-- {text}\n-->")
+
+    def add(self, inner: Lines) -> None:
+        """The elements of another document, inside of the one that is open."""
+        self._lines += [f"{self._indent}{line}" for line in inner._lines[1:]]
 
     def element(self, tag: str, **attributes: object) -> None:
         """An element without content; attributes that are None are left out."""

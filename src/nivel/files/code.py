@@ -30,9 +30,7 @@ def _read(tree: Tree, sources: Sources, path: Path, block: dict[str, Any]) -> No
         if SAMPLE_TIME in block:
             tree.report((*path, EVERY), f"give `{EVERY}` or `{SAMPLE_TIME}`, not both", at_key=True)
         block[SAMPLE_TIME] = block.pop(EVERY)
-        for places in (tree.places, tree.keys):
-            if (*path, EVERY) in places:
-                places[*path, SAMPLE_TIME] = places[*path, EVERY]
+        _move(tree, (*path, EVERY), (*path, SAMPLE_TIME))
     if "file" not in block:
         return
     given = block["file"]
@@ -85,26 +83,26 @@ WITH_LAWS: Final = ("drivers", "forces", "hydraulics", "states", "control", "sen
 def read_python_laws(tree: Tree, sources: Sources) -> None:
     """Put the text of `python: laws.py` into each law, as `source` and `file`. Faults go to `tree.faults`."""
     for section in WITH_LAWS:
-        for path, law in list(_laws(section_of(tree, section), (section,))):
+        for path, law in list(mappings_with(("python", "source"), section_of(tree, section), (section,))):
             _read_law(tree, sources, path, law)
 
 
 def read_python_code(tree: Tree, sources: Sources, section: str, what: str) -> None:
     """The same for all mappings of one section of another file; `what` they are is said where code is not allowed."""
-    for path, given in list(_laws(tree.data.get(section), (section,))):
+    for path, given in list(mappings_with(("python", "source"), tree.data.get(section), (section,))):
         _read_law(tree, sources, path, given, what)
 
 
-def _laws(value: Any, path: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
-    """Every mapping under `value` that holds Python code or names a file of it."""
+def mappings_with(keys: tuple[str, ...], value: Any, path: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
+    """Every mapping under `value`, which stands at `path`, that has one of the keys, and where it stands."""
     if isinstance(value, dict):
-        if "python" in value or "source" in value:
+        if not value.keys().isdisjoint(keys):
             yield path, value
         for key, entry in value.items():
-            yield from _laws(entry, (*path, key))
+            yield from mappings_with(keys, entry, (*path, key))
     elif isinstance(value, list):
         for at, entry in enumerate(value):
-            yield from _laws(entry, (*path, at))
+            yield from mappings_with(keys, entry, (*path, at))
 
 
 def _read_law(tree: Tree, sources: Sources, path: Path, law: dict[str, Any], what: str = "law") -> None:

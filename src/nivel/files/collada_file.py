@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.files.xml_source import Document, Element
+from nivel.machine.bodies.surface import joined
 from nivel.machine.core.orientation import Orientation, rotation_matrix
 
 Array = NDArray[np.float64]
@@ -32,7 +34,10 @@ def collada_surface(content: bytes) -> tuple[Array, Corners]:
     except ModelError as error:
         raise ColladaError(error.faults[0].message) from None
     named: dict[str, Element] = {}
-    _name(_without_spaces(root), named)
+    for element in _every(root):
+        element.tag = element.tag.rpartition(":")[2]  # without the prefix of its XML namespace
+        if "id" in element.attributes:
+            named[element.get("id")] = element
     unit = next((float(each.get("meter", "1")) for each in _below(root, "unit")), 1.0)
     parts: list[tuple[Array, Corners]] = []
     scenes = _below(root, "visual_scene")
@@ -43,41 +48,21 @@ def collada_surface(content: bytes) -> tuple[Array, Corners]:
             _place(node, np.diag([unit, unit, unit, 1.0]), named, parts, 0)
     else:
         parts = [(points * unit, corners) for each in _below(root, "geometry") for points, corners in _geometry(each)]
-    if not parts:
-        return np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
-    starts = np.cumsum([0, *(len(points) for points, _ in parts)])
-    triangles = [corners + start for (_, corners), start in zip(parts, starts, strict=False)]
-    return np.concatenate([points for points, _ in parts]), np.concatenate(triangles)
+    return joined(parts)
 
 
-def _without_spaces(element: Element) -> Element:
-    """The element with tags without their XML namespaces' prefixes."""
-    pending = [element]
-    while pending:
-        each = pending.pop()
-        each.tag = each.tag.rpartition(":")[2]
-        pending += each.children
-    return element
-
-
-def _name(root: Element, named: dict[str, Element]) -> None:
+def _every(root: Element) -> Iterator[Element]:
+    """An element and all below it, in their order."""
     pending = [root]
     while pending:
         element = pending.pop()
-        if "id" in element.attributes:
-            named[element.get("id")] = element
-        pending += element.children
+        yield element
+        pending += reversed(element.children)
 
 
 def _below(root: Element, tag: str) -> list[Element]:
     """All elements of a tag below `root`, in their order."""
-    found, pending = [], [root]
-    while pending:
-        element = pending.pop()
-        if element.tag == tag:
-            found.append(element)
-        pending += reversed(element.children)
-    return found
+    return [element for element in _every(root) if element.tag == tag]
 
 
 def _place(

@@ -109,15 +109,10 @@ def _divide_contacts(tree: Tree, counts: dict[str, int]) -> None:
         for k in range(first * second):
             part = f"{name}_{k + 1}"
             if part in tree.data["forces"]:
-                tree.report(
-                    ("forces", part),
-                    f"`{part}` is the name of a contact of a convex part of `{name}`; take another one",
-                )
-                tree.broken.add(("forces", part))
+                what = "is the name of a contact of a convex part of"
+                tree.report(("forces", part), f"`{part}` {what} `{name}`; take another one")
             forces[part] = {**force, PARTS: [k // second + 1, k % second + 1]}
-            for places in (tree.places, tree.keys):
-                for path in [path for path in places if path[:2] == ("forces", name)]:
-                    places["forces", part, *path[2:]] = places[path]
+            tree.copy_places(("forces", name), ("forces", part))
     if forces:
         tree.data["forces"] = forces
 
@@ -156,9 +151,7 @@ def divide_heaps(tree: Tree) -> None:
             if pair in given or pair in forces:
                 tree.report(("forces", pair), f"`{pair}` is the name of a contact of `{name}`; take another one")
             forces[pair] = {"type": "contact", **ends, **kept}
-            for places in (tree.places, tree.keys):
-                for path in [path for path in places if path[:2] == ("forces", name)]:
-                    places["forces", pair, *path[2:]] = places[path]
+            tree.copy_places(("forces", name), ("forces", pair))
     if forces:
         tree.data["forces"] = forces
 

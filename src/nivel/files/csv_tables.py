@@ -12,7 +12,7 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.errors import Fault
-from nivel.files.code import WITH_LAWS
+from nivel.files.code import WITH_LAWS, mappings_with
 from nivel.files.measured_file import KINDS, MeasuredError, measured_columns
 from nivel.files.outline import section_of
 from nivel.files.sources import Sources
@@ -50,7 +50,7 @@ class CsvError(Exception):
 def read_csv_tables(tree: Tree, sources: Sources) -> None:
     """Put the columns of `csv: cycle.csv` into each table, as `times` or `points` and `values`. Faults go to `tree.faults`."""
     for section in WITH_LAWS:
-        for path, table in list(_tables(section_of(tree, section), (section,))):
+        for path, table in list(mappings_with(("csv",), section_of(tree, section), (section,))):
             with_table(tree, sources, path, table, _fill)
 
 
@@ -77,13 +77,18 @@ def column_values(table: Mapping[str, Any], content: str | bytes, file: str) -> 
     column = table.get("column")
     given = _Rows(content, least=1) if isinstance(content, str) else _Measured(content, file, column)
     name = given.names[0] if column is None and len(given.names) == 1 else column
-    if name is None:
-        listing = ", ".join(f"`{each}`" for each in given.names)
-        raise CsvError(f"`column` is missing: `{file}` has {listing}")
-    if name not in given.names:
-        raise CsvError(f"in `{file}`, {unknown_word(str(name), given.names, 'column')}", "column")
-    (found,) = given.columns(str(name))
+    (found,) = given.columns(_known(name, given.names, "column", file))
     return _with_units(found, table.get("units"), "units")
+
+
+def _known(name: object, names: list[str], key: str, file: str) -> str:
+    """The name of a column under `key` of a table, one of the `names` of its file. Raises CsvError."""
+    if name is None:
+        listing = ", ".join(f"`{each}`" for each in names)
+        raise CsvError(f"`column` is missing: `{file}` has {listing}")
+    if name not in names:
+        raise CsvError(f"in `{file}`, {unknown_word(str(name), names, 'column')}", key)
+    return str(name)
 
 
 def numeric_columns(content: str | bytes, file: str) -> dict[str, tuple[list[float], str]]:
@@ -96,18 +101,6 @@ def numeric_columns(content: str | bytes, file: str) -> dict[str, tuple[list[flo
     }
 
 
-def _tables(value: Any, path: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
-    """Every mapping under `value` that names a CSV file."""
-    if isinstance(value, dict):
-        if "csv" in value:
-            yield path, value
-        for key, each in value.items():
-            yield from _tables(each, (*path, key))
-    elif isinstance(value, list):
-        for at, each in enumerate(value):
-            yield from _tables(each, (*path, at))
-
-
 def _fill(table: dict[str, Any], content: str | bytes, file: str) -> None:
     """Replace what is said of the file by its columns. Raises CsvError."""
     for key in table:
@@ -115,16 +108,10 @@ def _fill(table: dict[str, Any], content: str | bytes, file: str) -> None:
             raise CsvError(unknown_word(str(key), KEYS, "key"), str(key))
     given = _Rows(content) if isinstance(content, str) else _Measured(content, file, table.get("column"))
     names = given.names
-    first = table.get("time", names[0])
-    chosen = table.get("column", names[1] if len(names) == 2 else None)
-    for key, name in (("time", first), ("column", chosen)):
-        if name is None:
-            listing = ", ".join(f"`{each}`" for each in names)
-            raise CsvError(f"`column` is missing: `{file}` has {listing}")
-        if name not in names:
-            raise CsvError(f"in `{file}`, {unknown_word(str(name), names, 'column')}", key)
+    first = _known(table.get("time", names[0]), names, "time", file)
+    chosen = _known(table.get("column", names[1] if len(names) == 2 else None), names, "column", file)
     of, interpolation = table.get("of", TIME), table.get("interpolation")
-    points, values = given.columns(str(first), str(chosen))
+    points, values = given.columns(first, chosen)
     offset = _offset(table.get("time_offset"))
     if offset and of != TIME:
         raise CsvError(f"`time_offset` belongs to times; the table is over `{of}`", "time_offset")

@@ -60,9 +60,7 @@ def _spread(tree: Tree, keys: dict[str, Any], place: tuple[str, str], name: str,
         if word in force or (word in OF_TYRES and force.get("type") != "tyre"):
             continue
         force[word] = deepcopy(value)
-        for mine in (tree.places, tree.keys):
-            for path in [path for path in mine if path[:3] == (*place, word)]:
-                mine[("forces", name, *path[2:])] = mine[path]
+        tree.copy_places((*place, word), ("forces", name, word))
         tree.files[("forces", name, word)] = tree.file_of((*place, word))
         spread.add(("forces", name, word))
     return spread

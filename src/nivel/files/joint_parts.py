@@ -143,14 +143,10 @@ def _put(tree: Tree, section: str, name: str, element: dict[str, Any], path: Pat
         tree.report(path, f"what is made of it has the name `{name}`, which stands in {section} already")
         return False
     tree.data.setdefault(section, {})[name] = element
-    for places in (tree.places, tree.keys):
-        found = {each: place for each, place in places.items() if each[: len(path)] == path}
-        if path in tree.places:
-            places[section, name] = found.get(path, tree.places[path])
-            places[section, name, "inertia"] = places[section, name]
-        for each, place in found.items():
-            if len(each) > len(path):
-                places[(section, name, *each[len(path) :])] = place
+    tree.copy_places(path, (section, name))
+    if path in tree.places:
+        for places in (tree.places, tree.keys):
+            places[section, name, "inertia"] = places.setdefault((section, name), tree.places[path])
     return True
 
 

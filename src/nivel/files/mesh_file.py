@@ -18,7 +18,7 @@ from nivel.files.sources import Sources, beside, read_bytes
 from nivel.files.tree import Path, Tree
 from nivel.lazy import nivel
 from nivel.machine.bodies.shape import Mesh
-from nivel.machine.bodies.surface import MOST_TRIANGLES, Triangles, surface_text
+from nivel.machine.bodies.surface import MOST_TRIANGLES, Triangles, joined, surface_text
 from nivel.machine.core.orientation import matrix_from_euler_parameters
 
 Array = NDArray[np.float64]
@@ -140,13 +140,10 @@ def parse(content: bytes, file: str) -> tuple[Array, Triangles]:
         raise NotReadError(f"a mesh in {', '.join(KINDS)} was expected")
     try:
         vertices, triangles = readers[kind]()
-    except nivel.files.collada_file.ColladaError as problem:
-        raise NotReadError(str(problem)) from None
-    except DAMAGE:
-        raise NotReadError("the file is damaged, or not what its name says") from None
-    try:
         vertices = np.asarray(vertices, dtype=np.float64).reshape(-1, 3)
         triangles = np.asarray(triangles, dtype=np.int64).reshape(-1, 3)
+    except nivel.files.collada_file.ColladaError as problem:
+        raise NotReadError(str(problem)) from None
     except DAMAGE:
         raise NotReadError("the file is damaged, or not what its name says") from None
     if not len(triangles):
@@ -238,29 +235,16 @@ def _gltf(data: dict[str, Any], buffers: dict[int, bytes], file: str) -> tuple[A
     for k, buffer in enumerate(data.get("buffers", [])):
         if "uri" in buffer:
             buffers[k] = _buffer(str(buffer["uri"]), file)
-    vertices: list[Array] = []
-    triangles: list[Any] = []
     scenes = data.get("scenes") or [{"nodes": list(range(len(data.get("nodes", []))))}]
-    placed: set[int] = set()
-    for node in scenes[data.get("scene", 0)].get("nodes", []):
-        _collect(data, buffers, (node, np.eye(4), 0), vertices, triangles, placed)
-    if not triangles:
-        return np.zeros((0, 3)), np.zeros((0, 3))
-    starts = np.cumsum([0, *(len(each) for each in vertices)])
-    return np.concatenate(vertices), np.concatenate([t + start for t, start in zip(triangles, starts, strict=False)])
+    nodes, seen = scenes[data.get("scene", 0)].get("nodes", []), set[int]()
+    return joined([part for node in nodes for part in _placed(data, buffers, node, np.eye(4), 0, seen)])
 
 
-def _collect(
-    data: dict[str, Any],
-    buffers: dict[int, bytes],
-    at: tuple[int, Array, int],
-    vertices: list[Array],
-    triangles: list[Any],
-    seen: set[int],
-) -> None:
-    """Add the triangles of a node and of all below it. seen : nodes that were placed: none has two parents (glTF 2.0, §3.5.2), or there
-    may be two to the power of their number."""
-    number, around, depth = at
+def _placed(
+    data: dict[str, Any], buffers: dict[int, bytes], number: int, around: Array, depth: int, seen: set[int]
+) -> Iterator[tuple[Array, NDArray[Any]]]:
+    """Vertices and triangles of a node and of all below it. seen : nodes that were placed: none has two parents (glTF 2.0, §3.5.2), or
+    there may be two to the power of their number."""
     if depth > DEEPEST or number in seen:
         raise NotReadError("its nodes lead back to themselves, or one has two parents")
     seen.add(number)
@@ -275,10 +259,10 @@ def _collect(
             if "indices" in primitive:
                 corners = _accessor(data, buffers, primitive["indices"]).astype(np.int64)
             corners = corners.reshape(-1, 3)
-            vertices.append(points @ placed[:3, :3].T + placed[:3, 3])
-            triangles.append(corners if np.linalg.det(placed[:3, :3]) > 0.0 else corners[:, ::-1])
+            outwards = np.linalg.det(placed[:3, :3]) > 0.0
+            yield points @ placed[:3, :3].T + placed[:3, 3], corners if outwards else corners[:, ::-1]
     for child in node.get("children", []):
-        _collect(data, buffers, (child, placed, depth + 1), vertices, triangles, seen)
+        yield from _placed(data, buffers, child, placed, depth + 1, seen)
 
 
 def _transform(node: dict[str, Any]) -> Array:

@@ -213,15 +213,8 @@ def _texts_between_commas(node: Mapping | Sequence) -> list[str]:
     """What stands between the commas, without keys; a value that was cut goes on in keys that have no value."""
     if isinstance(node, Sequence):
         return [_plain_text(entry) for entry in node.entries]
-    return [
-        _plain_text(key) if _plain_text(value) == "" and _is_plain(value) else _plain_text(value)
-        for key, value in node.pairs
-    ]
+    return [_plain_text(key) if _plain_text(value) == "" else _plain_text(value) for key, value in node.pairs]
 
 
 def _plain_text(node: Node) -> str:
-    return node.text if _is_plain(node) and isinstance(node, Scalar) else "…"
-
-
-def _is_plain(node: Node) -> bool:
-    return isinstance(node, Scalar) and node.plain
+    return node.text if isinstance(node, Scalar) and node.plain else "…"

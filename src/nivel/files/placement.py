@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike, NDArray
 from nivel.elements.beams.beam import Beam
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
-from nivel.files.substitution import Linear, NotRepresentableError, same, substituted
+from nivel.files.substitution import Linear, NotRepresentableError, rewritten, same, substituted
 from nivel.lazy import dataclass, field
 from nivel.machine.bodies.body import Body
 from nivel.machine.core.marker import Marker
@@ -37,10 +37,7 @@ from nivel.machine.core.orientation import (
 )
 from nivel.machine.core.placement import marker_frame, placement
 from nivel.machine.core.record import GROUND, Record
-from nivel.machine.laws.python_law import PythonLaw
-from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
-from nivel.machine.units.expression import Expression
 
 Array = NDArray[np.float64]
 Triple = tuple[float, float, float]
@@ -199,19 +196,10 @@ class Scene:
 
         Raises NotRepresentableError.
         """
-        changes = {name: self._followed(getattr(record, name)) for name in record.model_fields_set - {"name"}}
-        changes = {name: value for name, value in changes.items() if value is not getattr(record, name)}
+        given = {name: getattr(record, name) for name in record.model_fields_set - {"name"}}
+        changes = {name: rewritten(value, self.varied, self.followed) for name, value in given.items()}
+        changes = {name: value for name, value in changes.items() if value is not given[name]}
         return record.replace(**changes) if changes else record
-
-    def _followed(self, value: Any) -> Any:
-        match value:
-            case Expression() | Table() | PythonLaw():
-                return self.varied(value)
-            case Record():
-                return self.followed(value)
-            case tuple() if any(isinstance(each, Expression | Table | PythonLaw | Record) for each in value):
-                return tuple(self._followed(each) for each in value)
-        return value
 
     def marker(self, marker: Marker, kept: Triple = AXIAL_Z) -> Marker:
         """`marker` in the placed part. `kept`: which of its axes are images where the part is mirrored."""

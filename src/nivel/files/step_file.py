@@ -15,7 +15,7 @@ from nivel.errors import ModelError
 from nivel.extras import needed, require
 from nivel.files.apart import apart
 from nivel.lazy import dataclass
-from nivel.machine.bodies.surface import Triangles
+from nivel.machine.bodies.surface import Triangles, joined
 
 Array = NDArray[np.float64]
 KINDS: Final = (".step", ".stp")
@@ -113,25 +113,22 @@ def _solid(gmsh: Any, tag: int, name: str) -> Solid:
     volume = float(gmsh.model.occ.getMass(3, tag))
     centre = np.array(gmsh.model.occ.getCenterOfMass(3, tag))
     moments = np.array(gmsh.model.occ.getMatrixOfInertia(3, tag)).reshape(3, 3)
-    points: list[Array] = []
-    triangles: list[NDArray[Any]] = []
-    start = 0
+    parts: list[tuple[Array, NDArray[Any]]] = []
     size = volume ** (1.0 / 3.0)
     for dimension, face in gmsh.model.getBoundary([(3, tag)], oriented=False):
         numbers, corners, _ = gmsh.model.mesh.getNodes(dimension, face, includeBoundary=True)
         kinds, _, nodes = gmsh.model.mesh.getElements(dimension, face)
         at = np.array(corners).reshape(-1, 3)
-        place = {int(number): start + k for k, number in enumerate(numbers)}
+        place = {int(number): k for k, number in enumerate(numbers)}
         for kind, each in zip(kinds, nodes, strict=True):
             if kind == 2:
                 rows = np.array([place[int(node)] for node in each]).reshape(-1, 3)
-                outwards = _is_outwards(gmsh, tag, at[rows - start], size)
-                triangles.append(rows if outwards else rows[:, ::-1])
-        points.append(at)
-        start += len(points[-1])
+                outwards = _is_outwards(gmsh, tag, at[rows], size)
+                parts.append((at, rows if outwards else rows[:, ::-1]))
     red, green, blue, alpha = gmsh.model.getColor(3, tag)
     colour = f"#{red:02x}{green:02x}{blue:02x}" if alpha and (red, green, blue) != (0, 0, 255) else ""
-    surface = np.concatenate(points), np.concatenate(triangles).astype(np.uint32)
+    vertices, triangles = joined(parts)
+    surface = vertices, triangles.astype(np.uint32)
     return Solid(name, volume, centre, 0.5 * (moments + moments.T), surface, colour)
 
 

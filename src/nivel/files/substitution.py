@@ -67,6 +67,20 @@ def substituted(function: TimeFunction, signals: Signals, *, local: tuple[str, .
     return function
 
 
+def rewritten(
+    value: Any, of_function: Callable[[TimeFunction], TimeFunction], of_record: Callable[[Record], Record]
+) -> Any:
+    """What a field of a record holds, with other functions and records in place of its own; what is neither stays."""
+    match value:
+        case Expression() | Table() | PythonLaw():
+            return of_function(value)
+        case Record():
+            return of_record(value)
+        case tuple() if any(isinstance(each, Expression | Table | PythonLaw | Record) for each in value):
+            return tuple(rewritten(each, of_function, of_record) for each in value)
+    return value
+
+
 def _table_of(table: Table, linear: Linear) -> Table:
     """A table over old = offset + factor · new, as one over new."""
     if len(linear.terms) != 1:
@@ -226,16 +240,13 @@ def _mention(value: Any, prefix: str) -> Any:
 
 def _value(value: Any, prefix: str) -> Any:
     """What is no mention itself: functions with signals, records with mentions in them."""
-    match value:
-        case Expression() if value.signals and "-" in prefix:
+
+    def of_function(function: TimeFunction) -> TimeFunction:
+        if isinstance(function, Expression) and function.signals and "-" in prefix:
             raise NotRepresentableError(
-                f"names that start with `{prefix}` cannot be used in `{value.text}`, where `-` is a minus sign; "
+                f"names that start with `{prefix}` cannot be used in `{function.text}`, where `-` is a minus sign; "
                 "give a `prefix` without it"
             )
-        case Expression() | Table() | PythonLaw():
-            return substituted(value, lambda path: same(f"{prefix}{path}"))
-        case Record():
-            return _record(value, prefix, {})
-        case tuple() if any(isinstance(each, Expression | Table | PythonLaw | Record) for each in value):
-            return tuple(_value(each, prefix) for each in value)
-    return value
+        return substituted(function, lambda path: same(f"{prefix}{path}"))
+
+    return rewritten(value, of_function, lambda record: _record(record, prefix, {}))

@@ -110,6 +110,12 @@ class Tree:
         fault = self.fault(path, "")
         return f"{fault.file}:{fault.line}:{fault.column}" if fault.line else "what is set from outside the file"
 
+    def copy_places(self, origin: Path, target: Path) -> None:
+        """What stands at `target` and under it was made of what stands at `origin`."""
+        for places in (self.places, self.keys):
+            for path in [path for path in places if path[: len(origin)] == origin]:
+                places[(*target, *path[len(origin) :])] = places[path]
+
     def graft(self, other: Tree, moves: Mapping[Path, Path]) -> None:
         """Take over the places of parts of `other`. `moves`: paths there, all of one length, and what they are here."""
         length = len(next(iter(moves), ()))

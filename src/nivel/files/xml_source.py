@@ -127,9 +127,6 @@ def _parsed(content: bytes, file: str) -> Element:
         stack[-1].children.append(element)
         stack.append(element)
 
-    def end(_tag: str) -> None:
-        stack.pop()
-
     def data(text: str) -> None:
         stack[-1].text += text
 
@@ -139,7 +136,7 @@ def _parsed(content: bytes, file: str) -> Element:
         )
 
     parser.StartElementHandler = start
-    parser.EndElementHandler = end
+    parser.EndElementHandler = lambda _: stack.pop()
     parser.CharacterDataHandler = data
     parser.StartDoctypeDeclHandler = doctype
     parser.EntityDeclHandler = doctype

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import math
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
@@ -14,7 +13,7 @@ from nivel.errors import ModelError
 from nivel.files.target import write_text
 from nivel.lazy import dataclass, field, fields, provided
 from nivel.results.comparison_table import as_html, as_text
-from nivel.results.trust import Trust
+from nivel.results.trust import Trust, storable
 from nivel.words.arguments import checked_arguments
 
 if TYPE_CHECKING:
@@ -220,7 +219,7 @@ class Comparison:
         data["references"] = [as_record(each) for each in self.references]
         data["spread"] = self.spread and as_record(self.spread)
         data["trust"] = json.loads(self.trust.to_json())
-        text = json.dumps(_finite(data), indent=2, ensure_ascii=False) + "\n"
+        text = json.dumps(storable(data, lambda _: None), indent=2, ensure_ascii=False) + "\n"
         return write_text(text, path, "comparison", force=force)
 
     @classmethod
@@ -270,12 +269,3 @@ def method_label(method: Method, varying: Iterable[str]) -> str:
 def as_record(item: Any) -> dict[str, Any]:
     """The fields of a flat dataclass by name."""
     return {each.name: getattr(item, each.name) for each in fields(item)}
-
-
-def _finite(value: Any) -> Any:
-    """JSON knows neither NaN nor infinity."""
-    if isinstance(value, dict):
-        return {key: _finite(each) for key, each in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(each) for each in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value

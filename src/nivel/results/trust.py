@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Final, Literal, NamedTuple
 
 import numpy as np
@@ -152,8 +152,9 @@ class Trust:
         """JSON text; NaN and infinities stand as the strings "nan", "inf", "-inf"."""
         flat = {"verdict": self.verdict, "outcome": self.outcome, "verified": self.verified, "light": self.light}
         flat |= {name: getattr(self, name) for name in KEYS}
-        items = [{each.name: getattr(item, each.name) for each in fields(Item)} for item in self.items]
-        return json.dumps({**_storable({**flat, "items": items}), "found": _tagged(self.found)}, ensure_ascii=False)
+        flat["items"] = [{each.name: getattr(item, each.name) for each in fields(Item)} for item in self.items]
+        found = storable(self.found, lambda value: {"number": str(value)})  # texts may look like numbers there
+        return json.dumps({**storable(flat, str), "found": found}, ensure_ascii=False)
 
     @classmethod
     def from_json(cls, text: str) -> Trust:
@@ -398,23 +399,13 @@ def _refuse_other_types(record: Item | Trust, types: Mapping[str, str]) -> None:
             raise ValueError(f"{name} is {value!r}")
 
 
-def _storable(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _storable(each) for key, each in value.items()}
-    if isinstance(value, list | tuple):
-        return [_storable(each) for each in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return str(value)
-    return value
-
-
-def _tagged(value: Any) -> Any:
-    """The same, where texts may look like numbers: {"number": "nan"}."""
+def storable(value: Any, instead: Callable[[float], Any]) -> Any:
+    """The same for JSON, which knows neither NaN nor infinity: `instead` gives what stands for these."""
     if isinstance(value, Mapping):
-        return {key: _tagged(each) for key, each in value.items()}
+        return {key: storable(each, instead) for key, each in value.items()}
     if isinstance(value, list | tuple):
-        return [_tagged(each) for each in value]
-    return {"number": str(value)} if isinstance(value, float) and not math.isfinite(value) else value
+        return [storable(each, instead) for each in value]
+    return instead(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _untagged(value: Any) -> Any:

@@ -93,9 +93,10 @@ def _collection(body: ReducedBody, path: Path, states: Iterable[State]) -> list[
 
 
 def _grid(body: ReducedBody, place: Array, fields: Mapping[str, Array]) -> str:
-    cells, kinds = _cells(body)
-    corners = np.concatenate([each.ravel() for each in cells]) if cells else np.zeros(0)
-    offsets = np.cumsum([len(row) for each in cells for row in each]) if cells else np.zeros(0)
+    cells = _cells(body)
+    kinds = np.repeat(np.array([kind for _, kind in cells], dtype=np.uint8), [len(nodes) for nodes, _ in cells])
+    corners = np.concatenate([np.zeros(0), *(nodes.ravel() for nodes, _ in cells)])
+    offsets = np.cumsum([len(row) for nodes, _ in cells for row in nodes])
     data = "".join(_array(name, values) for name, values in fields.items())
     return (
         '<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n'
@@ -106,12 +107,11 @@ def _grid(body: ReducedBody, place: Array, fields: Mapping[str, Array]) -> str:
     )
 
 
-def _cells(body: ReducedBody) -> tuple[list[NDArray[np.int64]], NDArray[np.uint8]]:
-    solid = TETRAHEDRON_10 if body.solids.shape[1] == 10 else TETRAHEDRON
-    present = [(body.solids, solid)] if len(body.solids) else [(body.triangles, TRIANGLE), (body.lines, LINE)]
-    cells = [nodes for nodes, _ in present if len(nodes)]
-    kinds = [np.full(len(nodes), kind, dtype=np.uint8) for nodes, kind in present if len(nodes)]
-    return cells, np.concatenate(kinds) if kinds else np.zeros(0, dtype=np.uint8)
+def _cells(body: ReducedBody) -> list[tuple[NDArray[np.int64], int]]:
+    """Nodes of cells of one kind, and VTK's number of this."""
+    if len(body.solids):
+        return [(body.solids, TETRAHEDRON_10 if body.solids.shape[1] == 10 else TETRAHEDRON)]
+    return [(body.triangles, TRIANGLE), (body.lines, LINE)]
 
 
 def _array(name: str, values: NDArray) -> str:

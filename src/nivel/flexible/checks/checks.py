@@ -8,7 +8,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from nivel.flexible.model.model import AXES, Array, FiniteElementModel, Sparse
+from nivel.flexible.model.model import AXES, FiniteElementModel, Sparse
 from nivel.flexible.model.solid_elements import SolidElements
 from nivel.flexible.reduction.factor import NoStiffnessError
 from nivel.flexible.reduction.free_body import FreeBody
@@ -128,10 +128,11 @@ def _node_of(model: FiniteElementModel, independent: int) -> str:
 
 
 def _without_mass(model: FiniteElementModel) -> str:
-    total = float(np.trace(_rigid_mass(model)[:3, :3])) / 3.0
+    along = model.rigid_modes()[:, :3]
+    rigid = along.T @ (model.mass.matrix @ along)
+    total = float(np.trace(rigid)) / 3.0
     if total <= 0.0:
         return "the model has no mass: give the materials a density, or a mass matrix"
-    rigid = _rigid_mass(model)[:3, :3]
     if np.abs(rigid - total * np.eye(3)).max() > 1e-3 * total:
         masses = ", ".join(f"{m:.6g}" for m in np.diag(rigid))
         return (
@@ -148,11 +149,6 @@ def _without_mass(model: FiniteElementModel) -> str:
             "that of a single element C3D8R is; take more elements, or elements with more points, such as C3D8I or C3D20R"
         )
     return ""
-
-
-def _rigid_mass(model: FiniteElementModel) -> Array:
-    R = model.rigid_modes()
-    return R.T @ (model.mass.matrix @ R)
 
 
 def _grounded(model: FiniteElementModel) -> str:

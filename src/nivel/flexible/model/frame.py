@@ -14,23 +14,7 @@ from nivel.errors import refuse
 from nivel.flexible.model.beam import Beam, end_stress, geometric_stiffness, mass_points, stiffness
 from nivel.flexible.model.model import Array, FiniteElementModel, PointMass, Sparse, Whole, numbered
 from nivel.flexible.model.model_file import Located
-from nivel.lazy import dataclass, field
-
-
-@dataclass
-class Mesh:
-    """Beams between nodes while the frame is put together. axes : (3, 3) rows are the local axes of a beam."""
-
-    position: list[Array] = field(default_factory=list)
-    ends: list[tuple[int, int]] = field(default_factory=list)
-    beams: list[Beam] = field(default_factory=list)
-    axes: list[Array] = field(default_factory=list)
-    names: list[str] = field(default_factory=list)
-
-    def node(self, position: Array) -> int:
-        """Add a node; its number."""
-        self.position.append(np.asarray(position, dtype=float))
-        return len(self.position) - 1
+from nivel.lazy import dataclass
 
 
 def local_axes(along: Array, up: Array | None) -> Array:
@@ -41,29 +25,6 @@ def local_axes(along: Array, up: Array | None) -> Array:
     z = up - (up @ x) * x
     z = z / np.linalg.norm(z)
     return np.array([x, np.cross(z, x), z])
-
-
-def assembled(
-    name: str, mesh: Mesh, names: Mapping[str, int], point_masses: Mapping[int, float], *, lumped: bool
-) -> FiniteElementModel:
-    """The model of the beams of `mesh` and of `point_masses` [kg] at nodes."""
-    position = np.array(mesh.position)
-    freedoms = numbered(np.ones((len(position), 6), dtype=bool))
-    elements = BeamElements(freedoms, tuple(mesh.ends), tuple(mesh.beams), np.array(mesh.axes), tuple(mesh.names))
-    K = elements.summed([stiffness(beam) for beam in mesh.beams])
-    return FiniteElementModel(
-        name=name,
-        node_ids=np.arange(1, len(position) + 1),
-        position=position,
-        freedoms=freedoms,
-        stiffness=sp.csc_array(K),
-        mass=_mass(position, freedoms, elements, point_masses, lumped),
-        expansion=sp.csr_array(sp.eye_array(freedoms.size)),
-        names=dict(names),
-        elements=elements,
-        lines=np.array(mesh.ends),
-        volume=float(sum(beam.section.area * beam.length for beam in mesh.beams)),
-    )
 
 
 def _mass(
@@ -127,14 +88,7 @@ class BeamElements:
         return sp.csr_array((blocks.ravel(), (rows, np.tile(columns, (1, 12)).ravel())), shape=(count, count))
 
     def station_nodes(self) -> Whole:
-        return np.array(
-            [
-                node
-                for e, beam in enumerate(self.beams)
-                for node in self.ends[e]
-                for _ in range(len(beam.section.fibres))
-            ]
-        )
+        return np.repeat(np.ravel(self.ends), np.repeat([len(beam.section.fibres) for beam in self.beams], 2))
 
     def station_labels(self) -> tuple[str, ...]:
         """``main, y 0.05 z 0.1``: the beam and the fibre."""
@@ -153,17 +107,11 @@ class BeamElements:
         return np.concatenate(parts)
 
     def strain(self, displacement: Array) -> Array:
-        parts = []
-        stress = self.stress(displacement)
-        at = 0
-        for beam in self.beams:
-            count = 2 * len(beam.section.fibres)
-            part, material = stress[at : at + count], beam.material
-            strain = part / material.shear_modulus
-            strain[:, 0] = part[:, 0] / material.youngs_modulus
-            strain[:, 1] = strain[:, 2] = -material.poisson_ratio * strain[:, 0]
-            parts.append(strain)
-            at += count
+        parts = np.split(self.stress(displacement), np.cumsum([2 * len(beam.section.fibres) for beam in self.beams]))
+        for beam, part in zip(self.beams, parts, strict=False):  # stress becomes strain
+            along = part[:, 0] / beam.material.youngs_modulus
+            part[:, 3:] /= beam.material.shear_modulus
+            part[:, 0], part[:, 1:3] = along, -beam.material.poisson_ratio * along[:, None]
         return np.concatenate(parts)
 
     def geometric_stiffness(self, displacement: Array, modes: Array) -> Array:
@@ -183,14 +131,18 @@ def frame_model(located: Located) -> FiniteElementModel:
     """
     record, frame = located.record, located.record.frame
     assert frame is not None
-    mesh = Mesh()
-    names = {name: mesh.node(np.array(position)) for name, position in frame.nodes.items()}
+    names = {name: k for k, name in enumerate(frame.nodes)}
+    places = [np.array(each, dtype=float) for each in frame.nodes.values()]
+    ends: list[tuple[int, int]] = []
+    beams: list[Beam] = []
+    axes: list[Array] = []
+    owners: list[str] = []
     faults = []
     used: set[str] = set()
     for name, beam in frame.beams.items():
         used.update(beam.nodes)
         first, last = (names[node] for node in beam.nodes)
-        start, span = mesh.position[first], mesh.position[last] - mesh.position[first]
+        start, span = places[first], places[last] - places[first]
         up = None if beam.up is None else np.array(beam.up)
         if up is not None and np.linalg.norm(np.cross(up, span)) < 1e-9 * np.linalg.norm(span) * max(
             np.linalg.norm(up), 1e-300
@@ -199,18 +151,30 @@ def frame_model(located: Located) -> FiniteElementModel:
             continue
         material = record.materials[beam.material]
         section = section_of(record.sections[beam.section], material.poisson_ratio)
-        between = [mesh.node(start + k / beam.elements * span) for k in range(1, beam.elements)]
-        chain = [first, *between, last]
         length = float(np.linalg.norm(span)) / beam.elements
-        for i, j in pairwise(chain):
-            mesh.ends.append((i, j))
-            mesh.beams.append(Beam(length, section, material, frame.theory == "timoshenko"))
-            mesh.axes.append(local_axes(span, up))
-            mesh.names.append(name)
+        ends += pairwise([first, *range(len(places), len(places) + beam.elements - 1), last])
+        places += [start + k / beam.elements * span for k in range(1, beam.elements)]
+        beams += beam.elements * [Beam(length, section, material, frame.theory == "timoshenko")]
+        axes += beam.elements * [local_axes(span, up)]
+        owners += beam.elements * [name]
     lost = "no beam ends at this node: remove it, or join it"
     faults += [located.fault(("frame", "nodes", name), lost) for name in frame.nodes if name not in used]
     refuse(faults)
     masses: dict[int, float] = {}
     for mass in frame.masses.values():
         masses[names[mass.node]] = masses.get(names[mass.node], 0.0) + mass.mass
-    return assembled(record.name, mesh, names, masses, lumped=record.reduction.mass == "lumped")
+    position, freedoms = np.array(places), numbered(np.ones((len(places), 6), dtype=bool))
+    elements = BeamElements(freedoms, tuple(ends), tuple(beams), np.array(axes), tuple(owners))
+    return FiniteElementModel(
+        name=record.name,
+        node_ids=np.arange(1, len(position) + 1),
+        position=position,
+        freedoms=freedoms,
+        stiffness=sp.csc_array(elements.summed([stiffness(beam) for beam in beams])),
+        mass=_mass(position, freedoms, elements, masses, record.reduction.mass == "lumped"),
+        expansion=sp.csr_array(sp.eye_array(freedoms.size)),
+        names=names,
+        elements=elements,
+        lines=np.array(ends),
+        volume=float(sum(beam.section.area * beam.length for beam in beams)),
+    )

@@ -132,14 +132,8 @@ def lumped(mass: Mass) -> PointMass:
 
 def scalar_part(mass: MatrixMass) -> Sparse:
     """(n, n) [kg] mean of the x, y and z parts of the translational mass of nodes."""
-    selection = [
-        sp.csr_array(
-            (np.ones(np.count_nonzero(f >= 0)), (np.flatnonzero(f >= 0), f[f >= 0])),
-            shape=(len(f), mass.full.shape[0]),
-        )
-        for f in mass.freedoms[:, :3].T
-    ]
-    return sp.csr_array(sum(S @ mass.full @ S.T for S in selection) / 3.0)
+    points = at_nodes(mass.freedoms, mass.full.shape[0])
+    return sp.csr_array(sum(S @ mass.full @ S.T for S in (points[a::3] for a in range(3))) / 3.0)
 
 
 def rigid_modes(position: Array, freedoms: NDArray[np.int64], count: int, about: Array | None = None) -> Array:

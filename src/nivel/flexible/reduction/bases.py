@@ -31,12 +31,11 @@ def stiffening(body: FreeBody, modes: Array, support: Whole, loaded: dict[str, W
     elements = body.model.elements
     assert elements is not None
     loads = {**inertia_loads(body), **{f"interface.{name}": _units(body, rows) for name, rows in loaded.items()}}
-    out = {}
-    full = body.model.expansion @ modes
-    for name, load in loads.items():
-        moved = body.held_solution(support, load)
-        out[name] = elements.geometric_stiffness(body.model.expansion @ moved, full)
-    return out
+    expansion, full = body.model.expansion, body.model.expansion @ modes
+    return {
+        name: elements.geometric_stiffness(expansion @ body.held_solution(support, load), full)
+        for name, load in loads.items()
+    }
 
 
 def _units(body: FreeBody, rows: Whole) -> Array:
@@ -179,8 +178,7 @@ def normal_only(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
 
 def attachments(body: FreeBody, boundary: Whole) -> tuple[Array, Array]:
     """(N, b) displacements under unit loads on the `boundary` freedoms, balanced by inertia; and these loads."""
-    loads = np.zeros((body.model.count, len(boundary)))
-    loads[boundary, np.arange(len(boundary))] = 1.0
+    loads = _units(body, boundary)
     return body.elastic_solution(loads), loads
 
 

@@ -10,7 +10,8 @@ from __future__ import annotations
 import base64
 import struct
 import zlib
-from typing import Final
+from collections.abc import Sequence
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,14 @@ def surface_text(vertices: Array, triangles: Triangles) -> str:
     """vertices (n, 3) [m] and triangles (m, 3) as one compressed text."""
     content = vertices.astype("<f8").tobytes() + triangles.astype("<u4").tobytes()
     return base64.b64encode(zlib.compress(HEAD.pack(len(vertices), len(triangles)) + content)).decode()
+
+
+def joined(parts: Sequence[tuple[Array, NDArray[Any]]]) -> tuple[Array, NDArray[Any]]:
+    """Vertices (n, 3) and triangles (m, 3) of several surfaces as those of one."""
+    starts = np.cumsum([0, *(len(vertices) for vertices, _ in parts)])
+    triangles = [each + start for (_, each), start in zip(parts, starts, strict=False)]
+    none = np.zeros((0, 3))
+    return np.concatenate([none, *(each for each, _ in parts)]), np.concatenate([none.astype(np.int64), *triangles])
 
 
 def surface_arrays(text: str) -> tuple[Array, Triangles]:

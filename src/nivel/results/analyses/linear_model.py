@@ -15,7 +15,7 @@ from nivel.errors import ModelError
 from nivel.extras import needed
 from nivel.files.target import write_text
 from nivel.lazy import dataclass, field, nivel, provided, scipy, xarray
-from nivel.results.analyses.sampled_model import SampledModel
+from nivel.results.analyses.sampled_model import SampledModel, participation, taking_part
 from nivel.results.frames.tabulated import Column, Rows, Tabulated, chosen
 from nivel.results.trust import Trust
 
@@ -25,9 +25,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-SHOWN: Final = 3  # states that are named with a mode
 ROUND_OFF: Final = 1e-11  # share of an eigenvalue below which its real part is nothing, however well it is known
-SHARE: Final = 0.1  # least participation of these
 FREQUENCIES: Final = 400
 LISTED: Final = 12  # modes in a text
 
@@ -146,9 +144,7 @@ class LinearModel(Tabulated):
     @property
     def participation(self) -> Array:
         """(n, n) |w_ki x_ki| of state k in eigenvalue i, the sum over states made one."""
-        share = np.abs(self.left * self.right)
-        total = share.sum(axis=0)
-        return share / np.where(total > 0.0, total, 1.0)
+        return participation(self.left, self.right)
 
     @property
     def modes(self) -> tuple[Mode, ...]:
@@ -159,22 +155,11 @@ class LinearModel(Tabulated):
         for k, value in enumerate(self.eigenvalues):
             if value.imag < 0.0:
                 continue
-            size = abs(value)
-            order = np.argsort(-share[:, k], kind="stable")[:SHOWN]
-            taking = tuple((self.states[j], float(share[j, k])) for j in order if share[j, k] >= SHARE)
+            number, size = len(out) + 1, float(abs(value))
             ratio = float(0.0 - value.real / size) if size > 0.0 else float("nan")
-            out.append(
-                Mode(
-                    len(out) + 1,
-                    complex(value),
-                    float(size) / (2.0 * np.pi),
-                    ratio,
-                    bool(self.structural[k]),
-                    taking,
-                    self._unresolved(len(out) + 1, complex(value)),
-                    float(self.round_off[k]),
-                )
-            )
+            zero, taking = bool(self.structural[k]), taking_part(self.states, share[:, k])
+            wrong, round_off = self._unresolved(number, complex(value)), float(self.round_off[k])
+            out.append(Mode(number, complex(value), size / (2.0 * np.pi), ratio, zero, taking, wrong, round_off))
         return tuple(out)
 
     def _unresolved(self, number: int, value: complex) -> str:

@@ -13,8 +13,22 @@ from nivel.lazy import dataclass, scipy
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 ROUND_OFF: Final = 1e-7  # by which a pole on the unit circle may be outside
-SHOWN: Final = 3  # states that are named with a pole
+SHOWN: Final = 3  # states that are named with a pole or a mode
 SHARE: Final = 0.1  # least participation of these
+MARGINS: Final = ("gain_margin", "gain_frequency", "phase_margin", "phase_frequency", "delay_margin")
+
+
+def participation(left: Complex, right: Complex) -> Array:
+    """(n, n) |w_ki x_ki| of state k in eigenvalue i of these eigenvectors, the sum over states made one."""
+    share = np.abs(left * right)
+    total = share.sum(axis=0)
+    return share / np.where(total > 0.0, total, 1.0)
+
+
+def taking_part(states: tuple[str, ...], share: Array) -> tuple[tuple[str, float], ...]:
+    """(name, share) of the states that take part most, of the participations (n,) of all."""
+    order = np.argsort(-share, kind="stable")[:SHOWN]
+    return tuple((states[k], float(share[k])) for k in order if share[k] >= SHARE)
 
 
 @dataclass(frozen=True)
@@ -111,9 +125,7 @@ class SampledModel:
     @property
     def modes(self) -> tuple[Pole, ...]:
         """The poles, the largest first, complex pairs once."""
-        share = np.abs(self.left * self.right)
-        total = share.sum(axis=0)
-        share = share / np.where(total > 0.0, total, 1.0)
+        share = participation(self.left, self.right)
         out: list[Pole] = []
         for k, z in enumerate(self.poles):
             if z.imag < 0.0:
@@ -122,9 +134,7 @@ class SampledModel:
             if abs(z) > ROUND_OFF and abs(z - 1.0) > ROUND_OFF:
                 s = np.log(complex(z)) / self.period
                 frequency, ratio = abs(s) / (2.0 * np.pi), float(-s.real / abs(s))
-            order = np.argsort(-share[:, k], kind="stable")[:SHOWN]
-            taking = tuple((self.states[j], float(share[j, k])) for j in order if share[j, k] >= SHARE)
-            out.append(Pole(len(out) + 1, complex(z), frequency, ratio, taking))
+            out.append(Pole(len(out) + 1, complex(z), frequency, ratio, taking_part(self.states, share[:, k])))
         return tuple(out)
 
     def summary(self) -> dict[str, Any]:
@@ -134,14 +144,7 @@ class SampledModel:
             "stable": self.stable,
             "poles": [[each.z.real, each.z.imag] for each in self.modes],
             "loops": [
-                {
-                    "name": loop.name,
-                    "gain_margin": _number(loop.gain_margin),
-                    "gain_frequency": _number(loop.gain_frequency),
-                    "phase_margin": _number(loop.phase_margin),
-                    "phase_frequency": _number(loop.phase_frequency),
-                    "delay_margin": _number(loop.delay_margin),
-                }
+                {"name": loop.name} | {margin: _number(getattr(loop, margin)) for margin in MARGINS}
                 for loop in self.loops
             ],
             "remarks": list(self.remarks),

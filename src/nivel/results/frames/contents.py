@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 import nivel
 from nivel.errors import ModelError
 from nivel.integrate.loop.sink import Header
-from nivel.lazy import dataclass
+from nivel.lazy import dataclass, replace
 from nivel.system.layout import FrameLayout, Variable
 
 
@@ -87,13 +87,7 @@ def resolved(header: Header) -> tuple[dict[str, Variable], dict[str, tuple[str, 
     layout = header.layout
     rename = apart_from_variables(layout)
     variables = {
-        name: Variable(
-            name,
-            tuple(rename.get(dim, dim) for dim in variable.dims),
-            variable.units,
-            variable.long_name,
-            variable.columns,
-        )
+        name: replace(variable, dims=tuple(rename.get(dim, dim) for dim in variable.dims))
         for name, variable in present_variables(layout).items()
     }
     used = {dim for variable in variables.values() for dim in variable.dims[1:]}

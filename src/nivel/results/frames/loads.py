@@ -68,12 +68,9 @@ def powers(result: Result, period: float | str | None = None) -> xarray.Dataset:
     names = [name for name in result.variables if name.endswith(".power")]
     if not names or not len(result.time):
         raise ModelError("the result has no power of drivers or forces")
+    seen = probed(result.attributes)
     history = curve(result.time, np.column_stack([result.array(name) for name in names]))
-    more = np.zeros(len(names))
-    for column, name in enumerate(names):
-        if (off := probed(result.attributes).get(name)) is not None:
-            more[column] = off[0]
-    history = history.doubted(more)
+    history = history.doubted(np.array([seen[name][0] if name in seen else 0.0 for name in names]))
     dims, elements = ("element",), [name.removesuffix(".power") for name in names]
     highest, net, both = peak(history), integral(history), integral_of_magnitude(history)
     done = Number(0.5 * (both.value + net.value), both.doubt, both.time)

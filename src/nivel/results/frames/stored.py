@@ -22,18 +22,8 @@ from nivel.system.layout import Variable
 DAMAGE = (AttributeError, IndexError, KeyError, TypeError, ValueError, MemoryError)
 # attributes that are JSON text
 JSON_TEXTS: Final = (
-    *(
-        "trust",
-        "settings",
-        "timing",
-        "scene",
-        "machine_record",
-        "events",
-        "assembly",
-        "constraint_units",
-        "coordinate_units",
-    ),
-    *("critical_points", "buckling", "estimated_errors", "flexible_bodies", "iterations"),
+    *("trust", "settings", "timing", "scene", "machine_record", "events", "assembly", "constraint_units"),
+    *("coordinate_units", "critical_points", "buckling", "estimated_errors", "flexible_bodies", "iterations"),
 )
 # A file holds at least this share of the bytes that its frames take: no compression of times gets below.
 LEAST_SHARE = 1e-4
@@ -107,9 +97,9 @@ class StoredContents:
         made = cls.__new__(cls)
         made.path, made.frame_count, made._memory = path, memory.frame_count, memory
         made.attributes, made.coordinates = memory.attributes, memory.coordinates
-        counts = {name: each.columns.stop - each.columns.start for name, each in memory.variables.items()}
         made.variables = {
-            name: replace(each, columns=slice(0, counts[name])) for name, each in memory.variables.items()
+            name: replace(each, columns=slice(0, each.columns.stop - each.columns.start))
+            for name, each in memory.variables.items()
         }
         return made
 
@@ -125,7 +115,8 @@ class StoredContents:
         self.frame_count = times.shape[0]
         if times.id.get_storage_size() < LEAST_SHARE * 8 * self.frame_count:
             raise ValueError(f"it claims {self.frame_count} frames, which it does not hold")
-        for name, dataset in _datasets(file):
+        for name in map(str, file):
+            dataset = _dataset(file, name)
             if name == "time":
                 continue
             name.encode()
@@ -168,10 +159,6 @@ def _refuse_broken(key: str, text: object) -> None:
         raise ValueError(f"the attribute `{key}`: {told}")
     if key == "scene" and (told := strangers(value)):
         raise ValueError(f"the attribute `{key}`: {told}")
-
-
-def _datasets(file: h5py.File) -> list[tuple[str, Any]]:
-    return [(name, _dataset(file, name)) for name in map(str, file)]
 
 
 def _dataset(file: h5py.File, name: str) -> Any:

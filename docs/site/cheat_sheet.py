@@ -7,6 +7,7 @@ from html import escape
 from typing import Any
 
 from nivel.elements.joints import JOINTS
+from nivel.files.joint_parts import DESCRIBED
 from reference import kind_of, parts_of, read_before, sections
 
 ENDS = ("markers", "bodies", "points")
@@ -67,7 +68,8 @@ def _joints(record: Any) -> str:
         more = " ".join(kind.may_size)
         found = f" → {' '.join(kind.coordinates)}" if kind.coordinates else ""
         lines.append(f'<p class="key"><code>{name}</code> {given} {more}{found}</p>')
-    return f'<h4>joints</h4><p class="key"><em>all</em> {_keys(record, _fields(record))}</p>{"".join(lines)}'
+    keys = f"{_keys(record, _fields(record))} · {' · '.join(DESCRIBED)}"
+    return f'<h4>joints</h4><p class="key"><em>all</em> {keys}</p>{"".join(lines)}'
 
 
 def _line(title: str, record: Any, without: Any) -> str:

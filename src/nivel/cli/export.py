@@ -104,12 +104,10 @@ def command(
         raise click.UsageError("--platform belongs to --fmu, or once to --c")
     if form == "c" and force:
         raise click.UsageError("--c takes a machine and a new folder; --force belongs to --csv and --fmu")
-    if form in ("page", "mjcf", "urdf") and names:
+    if form in ("page", "mjcf", "urdf", "gltf") and names:
         raise click.UsageError("--select belongs to --csv, --c and --fmu")
     if form not in ("c", "fmu", "page", "mjcf", "urdf") and overrides:
         raise click.UsageError("--set changes a machine; it belongs to --c, --fmu, --page, --mjcf and --urdf")
-    if form == "gltf" and names:
-        raise click.UsageError("--select belongs to --csv, --c and --fmu")
     if form == "c":
         _write_c_library(nivel.api.load(source, overrides), given, names, "".join(platforms))
         return

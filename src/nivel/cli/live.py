@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from types import FrameType
@@ -110,7 +110,13 @@ def command(
             outside = nivel.live.datagrams.Datagrams(session, listen or None, send or None)
             stack.callback(outside.close)
             source = nivel.live.source.LiveSource(session, outside if listen else None)
-            session.on_frame = both(session.on_frame, outside.send)
+            before = session.on_frame
+
+            def on_frame() -> None:
+                before()
+                outside.send()
+
+            session.on_frame = on_frame
             session.on_gone = lambda: threading.Timer(TOLD, stop.ask).start()
         for line in introduction(session):
             say(line)
@@ -194,16 +200,6 @@ def conclusion(session: Session) -> Iterator[str]:
         yield f"the trust report of this run would be {light.verdict}:"
         yield from (f"  {each}" for each in light.reasons)
     yield "not verified: the errors of its steps were not examined; `nivel replay` of a recording estimates them"
-
-
-def both(first: Callable[[], None], second: Callable[[], None]) -> Callable[[], None]:
-    """One after the other."""
-
-    def call() -> None:
-        first()
-        second()
-
-    return call
 
 
 def introduction(session: Session) -> Iterator[str]:

@@ -119,7 +119,7 @@ def command(
     for target in exports:
         _export(source, Path(target), look, quiet)
     if still:
-        _still(source, Path(still), moment, look)
+        nivel.view.capture.still(source, Path(still), look, moment)
         _say(f"picture: {still}", quiet)
     if not written:
         nivel.view.server.serve(
@@ -179,15 +179,11 @@ def _export(source: Source, target: Path, look: Look, quiet: bool) -> None:
     if target.suffix.lower() == ".html":
         nivel.view.page.write_page(source, target)
     elif target.suffix.lower() == ".png":
-        _still(source, target, None, look)
+        nivel.view.capture.still(source, target, look)
     else:
         with progress_count("drawing the film", quiet) as tell:
             nivel.view.capture.film(source, target, look, lambda done, count: tell(done, count, ""))
     _say(f"written: {target}", quiet)
-
-
-def _still(source: Source, target: Path, moment: float | None, look: Look) -> None:
-    nivel.view.capture.still(source, target, look, moment)
 
 
 def _say(text: str, quiet: bool) -> None:

@@ -123,7 +123,7 @@ class Solver:
         for sentence in become_urgent() if urgent else ["no real-time priority was asked for"]:
             self._pipe.send(Told("said", sentence))
         self._warm_up()
-        self._show()
+        self._its.show(self._live)
         control[MODE] = shared.PAUSED
         control[PACED] = 1
         while True:
@@ -164,7 +164,7 @@ class Solver:
         self._tell_counts()
         if status == codes.BUDGET_SPENT:
             return
-        self._show()
+        self._its.show(self._live)
         if status == codes.DONE:
             stopped = int(self._its.run.counter[STOPPED])
             events = self._its.prepared.motion.system.events
@@ -202,7 +202,7 @@ class Solver:
         elif command == shared.STEP and alive:
             control[MODE] = shared.PAUSED
             self._drive_once(1)
-            self._show()
+            self._its.show(self._live)
         elif command == shared.SAVE and alive:
             self._saved = taken(self._arrays, int(control[DONE]))
             control[SAVED] = self._saved.ticks
@@ -215,7 +215,4 @@ class Solver:
         control[DONE] = snapshot.ticks
         if control[MODE] != shared.RUNNING:
             control[MODE] = shared.PAUSED
-        self._show()
-
-    def _show(self) -> None:
         self._its.show(self._live)

@@ -146,19 +146,19 @@ def _faults(function: Any, given: tuple[Any, ...], named: dict[str, Any]) -> Ite
         pairs += [(its.rest, value) for value in given[len(unnamed) :]]
     elif len(given) > len(unnamed):
         few = [name for name in unnamed if name in types]
-        yield _fault("", _too_many(_title(function, given), few, given[len(unnamed) :]))
+        yield Fault.at("", _too_many(_title(function, given), few, given[len(unnamed) :]))
     for name, value in pairs:
         if name in types and not _fits(value, types[name]):
-            yield _fault(name, f"{_expected(types[name])} was expected, got {shown(value)}")
+            yield Fault.at(name, f"{_expected(types[name])} was expected, got {shown(value)}")
     for name in named:
         if name not in its.known and not its.open_ended:
-            yield _fault("", f"{_title(function, given)}: {unknown_word(name, its.known, 'argument')}")
+            yield Fault.at("", f"{_title(function, given)}: {unknown_word(name, its.known, 'argument')}")
         elif name in unnamed[: len(given)]:
-            yield _fault(name, f"{_title(function, given)} is given this twice, with its name and without")
+            yield Fault.at(name, f"{_title(function, given)} is given this twice, with its name and without")
     there = {name for name, _ in pairs}
     for name in its.needed:
         if name not in there:
-            yield _fault(name, f"{_title(function, given)} needs this: {_expected(types.get(name, Any))}")
+            yield Fault.at(name, f"{_title(function, given)} needs this: {_expected(types.get(name, Any))}")
 
 
 def _too_many(title: str, unnamed: list[str], rest: tuple[Any, ...]) -> str:
@@ -170,10 +170,6 @@ def _too_many(title: str, unnamed: list[str], rest: tuple[Any, ...]) -> str:
 def _title(function: Any, given: tuple[Any, ...]) -> str:
     """The name by which a function is called: that of the class of what it makes, where it makes an object."""
     return type(given[0]).__name__ if function.__name__ == "__init__" else function.__name__
-
-
-def _fault(name: str, message: str) -> Fault:
-    return Fault.at(name, message)
 
 
 def _fits(value: object, wanted: Any) -> bool:

@@ -72,25 +72,21 @@ def compile_all(jobs: Iterable[dict[str, Any]], done: Callable[[dict[str, Any]],
     finished: SimpleQueue[dict[str, Any] | BaseException | None] = SimpleQueue()
 
     def work(take: Callable[[], dict[str, Any]]) -> None:
+        problem: BaseException | None = None
         try:
             worker = _take_worker()
-        except BaseException as problem:  # whatever it is, nobody may wait for it
-            left.clear()
-            finished.put(problem)
-            return
-        try:
-            while (job := _next(take)) is not None:
-                worker.compile(job)
-                finished.put(job)
+            try:
+                while (job := _next(take)) is not None:
+                    worker.compile(job)
+                    finished.put(job)
+            except CompilationError as found:  # the worker can take other jobs
+                problem = found
             _idle.put(worker)
-            finished.put(None)
-        except CompilationError as problem:
+        except BaseException as found:  # whatever it is, nobody may wait for it
+            problem = found
+        if problem is not None:
             left.clear()
-            _idle.put(worker)
-            finished.put(problem)
-        except BaseException as problem:  # whatever it is, nobody may wait for it
-            left.clear()
-            finished.put(problem)
+        finished.put(problem)
 
     for k in range(count):
         threading.Thread(target=work, args=(left.pop if k % 2 else left.popleft,), daemon=True).start()

@@ -86,6 +86,11 @@ def seen_from(machine: MachineRecord, name: str, point: Array, axes: Array) -> P
     return name, A.T @ (point - position), A.T @ axes
 
 
+def axes_as_placed(machine: MachineRecord, name: str) -> Array:
+    """(3, 3) of a body as it is placed in the file, or of the ground."""
+    return np.eye(3) if name == "ground" else machine.placed[name][1]
+
+
 def as_placed(machine: MachineRecord, end: End) -> Placed:
     """Body, global point (3,) and global axes (3, 3) of where something acts, as its body is placed; the axes of a point are global."""
     if isinstance(end, GlobalPoint):
@@ -99,11 +104,8 @@ def as_placed(machine: MachineRecord, end: End) -> Placed:
 
 def cosine_as_placed(machine: MachineRecord, first: Placed, second: Placed) -> float:
     """Cosine of the angle between the z axes of two markers as the file places their bodies."""
-    axes = []
-    for body, _, frame in (first, second):
-        A = np.eye(3) if body == "ground" else machine.placed[body][1]
-        axes.append(A @ frame[:, 2])
-    return float(axes[0] @ axes[1])
+    a, b = (axes_as_placed(machine, body) @ frame[:, 2] for body, _, frame in (first, second))
+    return float(a @ b)
 
 
 # [m] two interfaces nearer than this, as placed, are one place of a joint
@@ -194,7 +196,7 @@ class Directions:
     def straightened(self, machine: MachineRecord, placed: Placed) -> Placed:
         """The marker with its z axis, as the file places its body, along a direction that is there already; else it becomes one."""
         body, point, frame = placed
-        A = np.eye(3) if body == "ground" else machine.placed[body][1]
+        A = axes_as_placed(machine, body)
         z = A @ frame[:, 2]
         for k in _near(self.found, z, self.tolerance):
             known = self.found[k]
@@ -225,7 +227,7 @@ def tilted_axes(machine: MachineRecord, most: float) -> tuple[Tilt, ...]:
         if not JOINTS[joint.type].of(joint).parallel:
             continue
         body, _, frame = joint_frames(machine, joint)[0]
-        z = (np.eye(3) if body == "ground" else machine.placed[body][1]) @ frame[:, 2]
+        z = axes_as_placed(machine, body) @ frame[:, 2]
         near = _near(directions, z, machine.assembly.parallel)
         own = next((k for k in near if apart(directions[k], z) <= machine.assembly.parallel), None)
         if own is None:

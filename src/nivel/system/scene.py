@@ -65,7 +65,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import find
 from nivel.system.builder import SystemBuilder
 from nivel.system.flexible import bending_bodies
-from nivel.system.joint_frames import as_placed, marker_place, slot_frame
+from nivel.system.joint_frames import as_placed, axes_as_placed, marker_place, slot_frame
 from nivel.system.section_outline import outline
 from nivel.system.system import System
 
@@ -221,19 +221,12 @@ def _joint(machine: MachineRecord, system: System, k: int) -> dict[str, Any]:
 
 def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
     builder = SystemBuilder(machine)  # knows where the ends of forces are
-    names = [*(body.name for body in machine.bodies), "ground"]
     for force in machine.forces:
         ends = _ends(builder, force)
         if ends is None:
             continue
         first, second = ends[0], ends[1]
-        markers = builder.markers
-        out: dict[str, Any] = {
-            "name": force.name,
-            "type": force.type,
-            "bodies": [names[markers.body[m]] for m in ends],
-            "points": [markers.position[m].tolist() for m in ends],
-        }
+        markers, out = builder.markers, _acting(builder, force.name, force.type, ends)
         match force:
             case TorsionalSpringDamper():
                 out["axis"] = markers.frame[first][:, 2].tolist()
@@ -245,14 +238,21 @@ def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
     for cylinder in machine.hydraulics:
         kinds = nivel.elements.circuits.actuators
         if isinstance(cylinder, kinds.HydraulicCylinder | kinds.TelescopicCylinder):
-            ends = builder.ends(cylinder.ends)
             yield {
-                "name": cylinder.name,
-                "type": "cylinder",
-                "bodies": [names[builder.markers.body[m]] for m in ends],
-                "points": [builder.markers.position[m].tolist() for m in ends],
+                **_acting(builder, cylinder.name, "cylinder", builder.ends(cylinder.ends)),
                 "sizes": _sizes(cylinder),
             }
+
+
+def _acting(builder: SystemBuilder, name: str, type_: str, ends: tuple[int, ...]) -> dict[str, Any]:
+    """What acts between markers."""
+    names, markers = [*(body.name for body in builder.machine.bodies), "ground"], builder.markers
+    return {
+        "name": name,
+        "type": type_,
+        "bodies": [names[markers.body[m]] for m in ends],
+        "points": [markers.position[m].tolist() for m in ends],
+    }
 
 
 def _sizes(cylinder: HydraulicCylinder | TelescopicCylinder) -> list[float]:
@@ -265,7 +265,7 @@ def _sizes(cylinder: HydraulicCylinder | TelescopicCylinder) -> list[float]:
 def _wheels(machine: MachineRecord, rope: Rope, radii: tuple[float, ...]) -> dict[str, Any]:
     """How a rope runs around wheels."""
     way = way_around(rope, radii, [as_placed(machine, end) for end in rope.ends])
-    turns = [np.eye(3) if body == "ground" else machine.placed[body][1] for body, _ in way.places]
+    turns = [axes_as_placed(machine, body) for body, _ in way.places]
     carrier = first_wheel(radii)
     fixed = [turns[k].T @ way.axes @ [np.cos(way.fixed[k]), np.sin(way.fixed[k]), 0.0] for k in (0, -1)]
     return {

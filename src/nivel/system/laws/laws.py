@@ -79,6 +79,10 @@ def _law_text(law: PythonLaw, *, motion: bool) -> str:
         ]
     else:
         lines = [f"return {call}"]
+    return _module(law, lines)
+
+
+def _module(law: PythonLaw, lines: list[str]) -> str:
     return LAW_TEXT.format(source=law.source, body="\n".join(f"    {line}" for line in lines))
 
 
@@ -89,9 +93,6 @@ def _dual_law_texts(law: PythonLaw, *, motion: bool) -> tuple[str, ...]:
     def call(argument: str) -> str:
         return f"{law.function}({', '.join(argument.format(n=n) for n in range(count))})"
 
-    def module(lines: list[str]) -> str:
-        return LAW_TEXT.format(source=law.source, body="\n".join(f"    {line}" for line in lines))
-
     if motion:
         lines = [
             f"value, rate, acceleration = {call('x[{n}].real')}",
@@ -100,7 +101,7 @@ def _dual_law_texts(law: PythonLaw, *, motion: bool) -> tuple[str, ...]:
             f"x[{count + 1}] = acceleration",
             "return value + rate * beyond",
         ]
-        return (module(lines),)
+        return (_module(law, lines),)
 
     def beside(steps: str) -> str:
         return call("x[{n}].real + " + steps + " * reach * _nivel_slope(x[{n}], k)")
@@ -119,7 +120,7 @@ def _dual_law_texts(law: PythonLaw, *, motion: bool) -> tuple[str, ...]:
         "        value += _nivel_unit(k, (8.0 * near - far) / (12.0 * reach))",
         "return value",
     ]
-    return module([f"return {call('x[{n}]')}"]), module(lines)
+    return _module(law, [f"return {call('x[{n}]')}"]), _module(law, lines)
 
 
 def false_derivative(law: PythonLaw, end: float) -> str:

@@ -77,11 +77,9 @@ def slider_start(kind: str, pose: tuple[Array, Array, Array, Array], rail: Rail)
 def _line(rail: Rail, e: int, *, rates: bool = False) -> CubicHermiteSpline:
     """The line between the nodes e and e + 1, or its rates at fixed places."""
     ends = slice(e, e + 2)
-    if rates:
-        return scipy.interpolate.CubicHermiteSpline(
-            rail.station[ends], rail.rdot[ends], np.cross(rail.omega[ends], rail.axes[ends, :, 0])
-        )
-    return scipy.interpolate.CubicHermiteSpline(rail.station[ends], rail.r[ends], rail.axes[ends, :, 0])
+    axes = rail.axes[ends, :, 0]
+    values, slopes = (rail.rdot, np.cross(rail.omega[ends], axes)) if rates else (rail.r, axes)
+    return scipy.interpolate.CubicHermiteSpline(rail.station[ends], values[ends], slopes)
 
 
 def _axis(rail: Rail, e: int, sigma: float, rate: float, k: int) -> tuple[Array, Array]:

@@ -8,7 +8,7 @@ from html import escape
 from typing import TYPE_CHECKING, Any, Final
 
 from nivel.lazy import dataclass, field
-from nivel.report.panel import GROUPS, TOGETHER, Curve, Group, Panel, left_out
+from nivel.report.panel import GROUPS, MOST, Curve, Group, Panel, left_out
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
@@ -181,7 +181,6 @@ def _drawn(box: Box) -> str:
     )
 
 
-MOST: Final = 2 * TOGETHER
 # parts of blocks that stand in the result file only
 INNER: Final = re.compile(r"(waiting|queued|guard|x)_?\d+|before|computed|entered|next|slope|.+_\d+")
 

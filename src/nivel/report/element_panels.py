@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from nivel.lazy import nivel
-from nivel.report.panel import GROUPS, TOGETHER, Curve, Group, Panel, left_out
+from nivel.report.panel import GROUPS, MOST, Curve, Group, Panel, left_out
 from nivel.results.result import Result
 
 if TYPE_CHECKING:
     from nivel.looks.circuit.power_flow import PowerFlow
     from nivel.results.frames.circuit_balance import ComponentBalance
 
-MOST = 2 * TOGETHER  # curves in a plot: those after the first TOGETHER are dashed
 
 # output of forces → what it is called; in the order in which they are offered
 FORCE_WORDS = {

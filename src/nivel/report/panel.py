@@ -13,6 +13,7 @@ Array = NDArray[np.float64]
 
 GROUPS = 24  # elements of a panel that can be chosen; more stand in the result file
 TOGETHER = 8  # curves that can be told apart in one plot
+MOST = 2 * TOGETHER  # curves in a plot: those after the first TOGETHER are dashed
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from nivel.lazy import dataclass
 from nivel.report.beam_shapes import beam_nodes, stations
 from nivel.report.control_diagram import control
 from nivel.report.element_panels import couplings, drivers, forces, sensors
-from nivel.report.panel import GROUPS, TOGETHER, Array, Curve, Group, Panel, components, left_out
+from nivel.report.panel import GROUPS, MOST, TOGETHER, Array, Curve, Group, Panel, components, left_out
 from nivel.results.scales import blocks, bodies, rotated
 
 if TYPE_CHECKING:
@@ -79,7 +79,6 @@ def _peaks(result: Result, variable: str) -> list[tuple[float, float]]:
 
 
 START = "hydraulics."
-MOST = 2 * TOGETHER  # curves in a plot: those after the first TOGETHER are dashed
 # how the last word of a name begins → heading, unit shown, SI value of it
 KINDS = {
     "pressure": ("pressures", "bar", 1e5),
@@ -168,11 +167,11 @@ def _joint_coordinates(result: Result) -> Panel | None:
         units = [result.units(f"{name}{suffix}") for name in names]
         for unit, word in words.items():
             chosen = [k for k, own in enumerate(units) if own == unit]
-            most, chosen = max(most, len(chosen)), chosen[: 2 * TOGETHER]
+            most, chosen = max(most, len(chosen)), chosen[:MOST]
             curves = tuple(Curve(names[k], values[:, k], str(i)) for i, k in enumerate(chosen))
             if curves:
                 groups.append(Group(word, unit, curves))
-    return Panel("Joint coordinates", tuple(groups), note=left_out(most, 2 * TOGETHER))
+    return Panel("Joint coordinates", tuple(groups), note=left_out(most, MOST))
 
 
 def _positions(result: Result) -> Panel | None:

@@ -20,11 +20,6 @@ from nivel.view.package import Block
 from nivel.view.records import Body, Flexible, Force, Joint, Marker, Part, Sweep
 
 
-def sweeps(scene: dict[str, Any], places: dict[str, int]) -> list[Sweep]:
-    """Those of the scene (`system.scene`)."""
-    return [_sweep(each, places) for each in scene.get("sweeps", [])]
-
-
 def _sweep(sweep: dict[str, Any], places: dict[str, int]) -> Sweep:
     bodies = [places[name] for name in sweep["bodies"]]
     count = len(bodies)
@@ -90,7 +85,7 @@ def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
             for m in scene.get("markers", [])
             if m["body"] != "ground"
         ],
-        sweeps(scene, places),
+        [_sweep(each, places) for each in scene.get("sweeps", [])],
         [part(each, block) for each in scene.get("surroundings", [])],
         places,
     )

@@ -68,10 +68,11 @@ class Circuit:
 def circuit_of(record: Mapping[str, Any]) -> Circuit:
     """The circuit of a machine record as JSON. A component without a symbol is a box with its type; a volume is a line with its name."""
     parts, drains, values, gases = [], set(), {}, set()
-    of_gas = _gases(record)
+    fluids = {str(each["name"]): str(each.get("type")) for each in record.get("fluids") or ()}
+    of_gas = {name for name, type_ in fluids.items() if type_ == "ideal-gas"}
     for data in record.get("hydraulics") or ():
         kind, name = str(data["type"]), str(data["name"])
-        gas = str(data.get("fluid")) in of_gas or (data.get("fluid") is None and of_gas == {*_fluids(record)} != set())
+        gas = str(data.get("fluid")) in of_gas or (data.get("fluid") is None and of_gas == {*fluids} != set())
         if kind == "reservoir" or (kind == "tank" and not _is_supply(data)):
             drains.add(name)
             gases |= {name} if gas else set()
@@ -84,15 +85,6 @@ def circuit_of(record: Mapping[str, Any]) -> Circuit:
             lines = _lines(data, kind, symbol)
             parts.append(Part(name, kind, symbol, lines, tuple(_words(data, kind, symbol))))
     return Circuit(parts, frozenset(drains), values, frozenset(gases))
-
-
-def _fluids(record: Mapping[str, Any]) -> dict[str, str]:
-    """The fluids by name, with their types."""
-    return {str(each["name"]): str(each.get("type")) for each in record.get("fluids") or ()}
-
-
-def _gases(record: Mapping[str, Any]) -> set[str]:
-    return {name for name, type_ in _fluids(record).items() if type_ == "ideal-gas"}
 
 
 def variable_of(node: str) -> str:

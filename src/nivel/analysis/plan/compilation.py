@@ -27,7 +27,7 @@ from nivel.kernels.signals.c_function import output as c_output
 from nivel.kernels.signals.fmu import output as fmu_output
 from nivel.kernels.signals.functions import compute, rate_states, read_inputs
 from nivel.lazy import nivel, rich
-from nivel.machine.control.unit_output import CFacts, UnitFacts
+from nivel.machine.control.unit_output import CFacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FLEXIBLE, IMPLICIT_ACCELERATIONS, PATHS
 from nivel.native import library
@@ -256,17 +256,15 @@ def _families(machine: MachineRecord) -> list[Family]:
     families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
     families |= dict.fromkeys([read_inputs] if machine.inputs else [])
     families |= dict.fromkeys([compute, rate_states] if machine.control else [rate_states] if machine.states else [])
-    families |= dict.fromkeys(_unit_law(block.facts) for block in machine.control if isinstance(block, UnitBlock))
+    units = [block.facts for block in machine.control if isinstance(block, UnitBlock)]
+    # a unit in another process is called as an FMU
+    in_c = (isinstance(each, CFacts) and not each.own_process for each in units)
+    families |= dict.fromkeys(c_output if own else fmu_output for own in in_c)
     return [*families, run_expression]
 
 
 def _of_circuits(machine: MachineRecord) -> list[Family]:
     return nivel.system.circuit_elements.families_of(machine) if machine.hydraulics else []
-
-
-def _unit_law(facts: UnitFacts) -> Family:
-    """What calls a unit; one in another process is called as an FMU."""
-    return c_output if isinstance(facts, CFacts) and not facts.own_process else fmu_output
 
 
 def _motions(machine: MachineRecord) -> list[Family]:
@@ -283,15 +281,10 @@ def _node_modules(methods: Methods) -> list[str]:
 
 
 def _watches(machine: MachineRecord, chooses_steps: bool) -> bool:
-    """Whether events are looked for: of the machine, or where steps are chosen contacts, stops and switches."""
-    return bool(machine.events) or (chooses_steps and (_has_surfaces(machine) or has_switches(machine)))
-
-
-def _has_surfaces(machine: MachineRecord) -> bool:
-    """Whether something may touch: contacts, stops, ends of cylinders."""
-    return any(force.type in FOLLOWED or getattr(force, "backlash", 0.0) for force in machine.forces) or any(
-        isinstance(component, nivel.elements.circuits.chambers.Actuator) for component in machine.hydraulics
-    )
+    """Whether events are looked for: of the machine, or where steps are chosen contacts, stops, ends of cylinders and switches."""
+    touches = any(force.type in FOLLOWED or getattr(force, "backlash", 0.0) for force in machine.forces)
+    ends = any(isinstance(each, nivel.elements.circuits.chambers.Actuator) for each in machine.hydraulics)
+    return bool(machine.events) or (chooses_steps and (touches or ends or has_switches(machine)))
 
 
 def _rare_modules(machine: MachineRecord) -> list[str]:

@@ -52,7 +52,7 @@ def with_named_nodes(data: Any) -> Any:
     components = elements(data, "hydraulics") if isinstance(data, Mapping) else []
     if not isinstance(entry(data, "hydraulics"), list | tuple) or len(elements(data, "fluids")) > 1:
         return data
-    known = {*node_types(components), *(entry(each, "name") for each in components)}
+    known = {*node_types(components), *(str(entry(each, "name")) for each in components)}
     named: Counter[str] = Counter()
     for component in components:
         sensing = (record_of(str(entry(component, "type"))) or Component).sensing

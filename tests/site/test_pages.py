@@ -6,7 +6,9 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 import tomllib
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +25,7 @@ from nivel.analysis.plan.plan import plan_run
 from nivel.cli import COMMANDS
 from nivel.files import parse_machine
 from nivel.files.schema import schema as file_schema
+from patience import PATIENCE
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -235,10 +238,23 @@ def test_every_page_stands_in_the_navigation_or_is_a_guide():
 def site(tmp_path_factory):
     """The site without its pictures, built without a warning."""
     needs("mkdocs", "material", "mkdocstrings")
-    folder = tmp_path_factory.mktemp("pages") / "site"
+    # the processes of one run of the tests share it: the first builds, others wait
+    base = tmp_path_factory.getbasetemp()
+    shared = (base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base) / "pages"
+    folder, built = shared / "site", shared / "built"
+    try:
+        shared.mkdir()
+    except FileExistsError:
+        end = time.monotonic() + PATIENCE
+        while not built.exists():
+            assert time.monotonic() < end, "the site was not built by the process that began"
+            time.sleep(0.1)
+        assert not built.read_text(encoding="utf-8")
+        return folder
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", str(folder)]
     own = {**os.environ, "NIVEL_SITE_PICTURES": "0"}
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, env=own)
+    built.write_text("" if done.returncode == 0 else done.stderr or "failed", encoding="utf-8")
     assert done.returncode == 0, done.stderr
     return folder
 
@@ -269,12 +285,11 @@ def test_the_keys_of_a_machine_file_stand_on_one_screen(site, browser):
         assert float(size.removesuffix("px")) >= 8
 
 
+@cache
 def keys_of_the_schema():
     """(kind, keys) of all elements in the schema that editors use, which is made of what reads a machine file."""
-    definitions = file_schema()["$defs"]
-    for each in definitions.values():
-        kind = each.get("properties", {}).get("type", {}).get("const", "")
-        yield kind, set(each.get("properties", {})) - {"type", "name"}
+    found = [each.get("properties", {}) for each in file_schema()["$defs"].values()]
+    return [(each.get("type", {}).get("const", ""), set(each) - {"type", "name"}) for each in found]
 
 
 @pytest.mark.parametrize(("module", "page"), [("cheat_sheet", "cheat_sheet"), ("reference", "key_page")])

@@ -35,6 +35,21 @@ COARSE = (
     "world.resize() }"
 )
 PIXELS = [0.4, 256]
+# the first pictures of a page are drawn before it is told: their shadows, which have 2048 pixels along each side, are as coarse
+COARSE_FROM_THE_START = """(() => {
+  const gl = WebGL2RenderingContext.prototype, less = (pixels) => (pixels === 2048 ? 256 : pixels);
+  const sized = (name, first, when = () => true) => {
+    const before = gl[name];
+    gl[name] = function (...given) {
+      if (when(given)) for (const k of [first, first + 1]) given[k] = less(given[k]);
+      return before.apply(this, given);
+    };
+  };
+  sized("viewport", 2);
+  sized("renderbufferStorage", 2);
+  sized("texStorage2D", 3);
+  sized("texImage2D", 3, (given) => given.length === 9 && given[8] === null);
+})()"""
 LOCAL = ("file:", "data:", "blob:", "about:", "http://127.0.0.1:")
 
 
@@ -129,7 +144,10 @@ class Watched:
 
     def __init__(self, browser, *, width=1280, height=800, scheme="light", touch=False):
         self.kind = scheme, touch
-        self.page = FREE.pop(self.kind, None) or browser.new_context(color_scheme=scheme, has_touch=touch).new_page()
+        self.page = FREE.pop(self.kind, None)
+        if self.page is None:
+            self.page = browser.new_context(color_scheme=scheme, has_touch=touch).new_page()
+            self.page.add_init_script(COARSE_FROM_THE_START)
         self.context = self.page.context
         self.context.set_default_timeout(1000 * PATIENCE)
         self.page.set_viewport_size({"width": width, "height": height})

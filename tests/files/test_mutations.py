@@ -57,7 +57,7 @@ VALUES = st.recursive(
 )
 TREE = read_tree(FULL, "")
 PATHS = [".".join(map(str, path)) for path in TREE.places if path]
-PARTS = 6  # of all keys and values: one of them by default
+PARTS = 12  # of all keys and values: one of them by default
 FREE = ("name", "sensors.sum.units")  # texts in which anything may stand
 
 

@@ -18,7 +18,7 @@ from nivel.files import parse_machine, write_machine
 from nivel.machine.core.index import SECTIONS
 
 MACHINE = MachineRecord(**EVERYTHING)
-PARTS, PARTS_MISSING = 48, 24
+PARTS, PARTS_MISSING = 96, 48
 GARBAGE = (
     None,
     True,

@@ -113,8 +113,8 @@ def coverage(oscillator, seeds):
 
 
 def test_the_covariance_covers_the_truth(oscillator):
-    inside, mean = coverage(oscillator, range(6))
-    assert inside >= 5
+    inside, mean = coverage(oscillator, range(3))
+    assert inside >= 2
     assert 0.3 < mean < 5.0
 
 

@@ -69,10 +69,11 @@ def tangent_rests(name, coordinates):
 
 def _rests(name, coordinates):
     """By default each element meets absolute coordinates and one of the others, in turn, so that all of these meet a part of the elements;
-    joints and machines meet relative ones as well, whose tree they are."""
-    if coordinates == "absolute" or (coordinates == "relative" and name not in force_zoo.ELEMENTS):
+    joints and few machines meet relative ones as well, whose tree they are."""
+    both = name in JOINTS or name in FEW
+    if coordinates == "absolute" or (coordinates == "relative" and both):
         return False
-    others = ROTATIONS if name not in force_zoo.ELEMENTS else ("relative", *ROTATIONS)
+    others = ROTATIONS if both else ("relative", *ROTATIONS)
     return list(ZOO).index(name) % len(others) != others.index(coordinates)
 
 

@@ -101,20 +101,14 @@ def pose_of(element: Element, document: Document) -> Frame:
         return Frame()
     if pose.get("rotation_format") == "quat_xyzw":
         x, y, z, qx, qy, qz, qw = document.numbers(pose, "", (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0))
-        return Frame(_axes_of((qw, qx, qy, qz)), np.array([x, y, z]))
+        turn = np.array([qw, qx, qy, qz])
+        length = float(np.linalg.norm(turn))
+        axes = nivel.machine.core.orientation.matrix_from_euler_parameters(turn / length) if length else np.eye(3)
+        return Frame(axes, np.array([x, y, z]))
     x, y, z, *angles = document.numbers(pose, "", (0.0,) * 6)
     if pose.get("degrees") in ("true", "1"):
         angles = [float(np.deg2rad(each)) for each in angles]
     return Frame(turned(*angles), np.array([x, y, z]))
-
-
-def _axes_of(parameters: tuple[float, ...]) -> Array:
-    length = float(np.linalg.norm(parameters))
-    return (
-        nivel.machine.core.orientation.matrix_from_euler_parameters(np.array(parameters) / length)
-        if length
-        else np.eye(3)
-    )
 
 
 def read_sdf(document: Document, base: str | None, contacts: str = "all") -> Mechanism:

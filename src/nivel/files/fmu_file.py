@@ -79,13 +79,10 @@ def unknown_variables(
             if found is None:
                 yield key, f"{unknown_word(name, known, key[:-1])} of `{Path(description.file).name}`"
             elif found.causality not in causalities:
-                article = "an" if found.causality[:1] in "aeio" else "a"
-                yield (
-                    key,
-                    f"`{name}` is {article} {found.causality} of the FMU, not an {key[:-1]}".replace(
-                        "an parameter", "a parameter"
-                    ),
+                given, expected = (
+                    f"{'an' if each[:1] in 'aeio' else 'a'} {each}" for each in (found.causality, key[:-1])
                 )
+                yield key, f"`{name}` is {given} of the FMU, not {expected}"
             elif found.kind != number or found.is_array:
                 what = "an array" if found.is_array else f"of the type {found.kind}"
                 yield key, f"`{name}` is {what}; single variables of the type {number} are connected"

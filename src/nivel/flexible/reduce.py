@@ -85,7 +85,7 @@ def reduce_model(located: Located, *, stage: Stage | None = None) -> Reduction:
     try:
         return _reduced(body, attachments, located, say)
     except NoStiffnessError as error:
-        raise _at_source(located, checks.mechanism(body, error)) from None
+        raise ModelError(_fault(located, checks.mechanism(body, error))) from None
 
 
 def _check(model: FiniteElementModel, located: Located) -> None:
@@ -93,7 +93,8 @@ def _check(model: FiniteElementModel, located: Located) -> None:
     found = checks.problems(model)
     if found:
         raise ModelError([_fault(located, text) for text in found])
-    mass = float(np.trace(model.rigid_modes()[:, :3].T @ (model.mass.matrix @ model.rigid_modes()[:, :3]))) / 3.0
+    along = model.rigid_modes()[:, :3]
+    mass = float(np.trace(along.T @ (model.mass.matrix @ along))) / 3.0
     alone = located.record.frame is None or not located.record.frame.masses
     volume = model.volume if alone else None
     problem = checks.mass_problem(mass, located.record.expected_mass, volume, model.size)
@@ -105,10 +106,6 @@ def _check(model: FiniteElementModel, located: Located) -> None:
 def _fault(located: Located, message: str) -> Fault:
     source = next(key for key in ("frame", "solid", "matrices") if getattr(located.record, key) is not None)
     return located.fault((source,), message, at_key=True)
-
-
-def _at_source(located: Located, message: str) -> ModelError:
-    return ModelError(_fault(located, message))
 
 
 def _reduced(body: FreeBody, attachments: tuple[Attachment, ...], located: Located, say: Stage) -> Reduction:
@@ -128,7 +125,7 @@ def _reduced(body: FreeBody, attachments: tuple[Attachment, ...], located: Locat
     findings = findings_of(body, attachments, boundary, basis, found, modes, error)
     share, text = checks.digits(body, (2.0 * np.pi * findings.full[0]) ** 2) if findings.full else (0.0, "")
     if share > checks.FEW_DIGITS:
-        raise _at_source(located, text[0].lower() + text[1:])
+        raise ModelError(_fault(located, text[0].lower() + text[1:]))
     body.forget_factor()
     say("computing inertia invariants and stress modes", 0.88)
     reduced = ReducedBody(

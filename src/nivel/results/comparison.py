@@ -202,13 +202,11 @@ class Comparison:
     def to_csv(self, path: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
         """A table with a header (`step [s]`) and a line for every row; written to `path` where one is given. force : replace an existing
         file. Numbers are as short as they can be read back exactly, nothing where there is none."""
-        names = list(as_record(Row("", "", "", "", "")))
+        names = [each.name for each in fields(Row)]
         file = io.StringIO()
         table = csv.writer(file, lineterminator="\n")
         table.writerow([f"{name} [{UNITS[name]}]" if name in UNITS else name for name in names])
-        for row in self.rows:
-            record = as_record(row)
-            table.writerow(["" if record[name] is None else record[name] for name in names])
+        table.writerows([getattr(row, name) for name in names] for row in self.rows)
         return write_text(file.getvalue(), path, "table", force=force)
 
     @checked_arguments

@@ -166,13 +166,10 @@ def rewrite(path: Path, attributes: Attributes, contents: StoredContents | None 
             _write_final(contents or StoredContents(path), draft, attributes)
     except OSError as error:
         _note(path, attributes)
-        raise _not_compressed(path, reason_of(error)) from error
-
-
-def _not_compressed(path: Path, reason: str) -> SolveError:
-    result = Result(StoredContents(path))
-    message = f"the result file {path} is complete but could not be compressed: {reason}"
-    return SolveError(message, time=float(result.time[-1]) if len(result.time) else 0.0, result=result)
+        result = Result(StoredContents(path))
+        message = f"the result file {path} is complete but could not be compressed: {reason_of(error)}"
+        until = float(result.time[-1]) if len(result.time) else 0.0
+        raise SolveError(message, time=until, result=result) from error
 
 
 def _note(path: Path, attributes: Attributes) -> None:

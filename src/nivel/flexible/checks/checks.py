@@ -41,15 +41,12 @@ def unsymmetric(matrix: Sparse, what: str) -> str:
         return ""
     at = int(np.argmax(np.abs(difference.data)))
     i, j = difference.coords[0][at], difference.coords[1][at]
-    triangle = " Only one triangle is stored and the file says the whole matrix." if _one_triangle(matrix) else ""
+    one_triangle = sp.tril(matrix, -1).nnz == 0 or sp.triu(matrix, 1).nnz == 0
+    triangle = " Only one triangle is stored and the file says the whole matrix." if one_triangle else ""
     return (
         f"the {what} matrix is not symmetric: element ({i + 1}, {j + 1}) is {matrix[i, j]:.6g}, ({j + 1}, {i + 1}) is "
         f"{matrix[j, i]:.6g}.{triangle} Export the symmetric matrix of a linear step, without friction, follower loads or rotor terms"
     )
-
-
-def _one_triangle(matrix: Sparse) -> bool:
-    return sp.tril(matrix, -1).nnz == 0 or sp.triu(matrix, 1).nnz == 0
 
 
 def problems(model: FiniteElementModel) -> list[str]:

@@ -184,13 +184,8 @@ def understood(contents: object, attribute: str) -> Iterator[None]:
     except DAMAGE as error:
         file = getattr(contents, "path", None) or "the result"
         newer = written_by_newer(getattr(contents, "attributes", {}))
-        raise ModelError(
-            f"{file} is damaged, `{attribute}` cannot be read: {type(error).__name__}: {_first_line(error)}{newer}"
-        ) from None
-
-
-def _first_line(error: BaseException) -> str:
-    return (str(error).splitlines() or [""])[0]
+        said = f"{type(error).__name__}: {(str(error).splitlines() or [''])[0]}"
+        raise ModelError(f"{file} is damaged, `{attribute}` cannot be read: {said}{newer}") from None
 
 
 def _plain(value: Any) -> str | float | int:

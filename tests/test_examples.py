@@ -12,6 +12,9 @@ from example_files import EXAMPLES, RIGID
 from references import andrews, four_bar, heavy_top, pendulum, slider_crank
 
 
+NOT_UNIQUE = {("redundancy", "four-bar-revolutes"), ("friction", "gripper")}
+
+
 @pytest.mark.parametrize(
     ("path", "formulation"),
     [
@@ -27,8 +30,8 @@ def test_example_runs_green(path, formulation):
     result = nivel.load(path, allow_code=True).simulate(formulation=formulation)
     assert result.outcome == "done"
     for item in result.trust.items:
-        # four revolutes with parallel axes are redundant, and the example says so
-        expected = "amber" if item.name == "redundancy" and path.stem == "four-bar-revolutes" else "green"
+        # four revolutes with parallel axes are redundant, and the example says so; jaws and stand hold a box with more patches than needed
+        expected = "amber" if (item.name, path.stem) in NOT_UNIQUE else "green"
         assert item.verdict == expected, result
 
 

@@ -63,7 +63,7 @@ def test_every_method_that_a_file_may_name_exists_and_the_other_way_round():
 def test_facts_of_an_integrator_agree_with_each_other(facts):
     assert isinstance(facts.step, Entry)
     assert not (facts.kind == "explicit" and facts.needs != "evaluations")
-    assert all(facts.over_steps) == any(facts.over_steps) == (facts.needs == "whole steps")
+    assert bool(facts.over_step) == (facts.needs == "whole steps")
     assert not (facts.machines != "all" and facts.residual)
     assert facts.held == 1.0 or facts.kind == "explicit"
 

@@ -11,6 +11,7 @@ from nivel.api import sweep as sweep
 from nivel.elements import circuits as hydraulics
 from nivel.elements import control as control
 from nivel.elements import forces as forces
+from nivel.elements.beams.beam import Beam as Beam
 from nivel.elements.contacts.contact import Contact as Contact
 from nivel.elements.forces.actuators import Motor as Motor
 from nivel.elements.forces.actuators import Servo as Servo
@@ -45,7 +46,6 @@ from nivel.errors import NivelError as NivelError
 from nivel.errors import SolveError as SolveError
 from nivel.live.opening import export_page as export_page
 from nivel.machine.assembly_settings import AssemblySettings as AssemblySettings
-from nivel.elements.beams.beam import Beam as Beam
 from nivel.machine.bodies.body import Body as Body
 from nivel.machine.control.block import Block as Block
 from nivel.machine.core.marker import Marker as Marker

@@ -178,6 +178,22 @@ def test_frictions_that_load_each_other(model, integrator):
     short(machine(sections).record, integrator, steps=5)
 
 
+def test_feet_that_share_a_load():
+    """More patches than one motion needs hold a body that rests on a plane."""
+    feet = {
+        f"foot_{k}": {"body": "table", "position": [*place, 0.0], "shape": {"type": "sphere", "radius": 0.05}}
+        for k, place in enumerate([(0.3, 0.2), (0.3, -0.2), (-0.3, 0.2)])
+    }
+    touch = {"type": "contact", "plane": "floor", "stiffness": 1e6, "damping": 1.0, "friction": 0.5}
+    sections = {
+        "gravity": [0, 0, -9.81],
+        "bodies": {"table": solid(position=[0, 0, 0.0499])},
+        "markers": {"floor": {"body": "ground", "axis": [0, 0, 1]}, **feet},
+        "forces": {name: {**touch, "body": name} for name in feet},
+    }
+    short(machine(sections).record)
+
+
 @pytest.mark.parametrize("integrator", [EXPLICIT, "generalised-alpha"])
 def test_drive_trains_that_hold(integrator):
     """A clutch, a freewheel and the loss of a gear; a brake on what a driver moves."""
@@ -492,6 +508,11 @@ def test_flexible_bodies_by_energy_and_momenta(folder):
 @pytest.mark.parametrize("name", ["chain", "loop", "flying", "spinning"])
 def test_flexible_machines(folder, name, coordinates):
     short(tree_machines.MACHINES[name](folder), steps=1, step=1e-5, coordinates=coordinates, stabilisation="direct")
+
+
+def test_a_correction_of_a_flexible_loop_in_relative_coordinates(folder):
+    """A step long enough that the loop opens."""
+    short(tree_machines.MACHINES["loop"](folder), steps=1, step=1e-3, coordinates="relative", stabilisation="direct")
 
 
 @pytest.mark.parametrize("integrator", ["ros2", "bdf", "radau"])

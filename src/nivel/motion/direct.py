@@ -1,5 +1,4 @@
-"""What evaluations and direct corrections of states have in common in all coordinates; which level a correction puts right, and pass after
-pass (report 44, §5.5)."""
+"""Direct evaluation in all coordinates, and direct corrections of states: levels that are put right, pass after pass (report 44, §5.5)."""
 
 from __future__ import annotations
 

@@ -12,7 +12,6 @@ from nivel.machine.core.element import Acts
 from nivel.machine.laws.time_function import TimeFunction
 
 if TYPE_CHECKING:
-    from nivel.elements.circuits.component import Rated
     from nivel.system.builder import SystemBuilder
 
 # what is closed has no flow but its leak
@@ -77,7 +76,7 @@ def add_opened(
 
 def add_check_between(
     builder: SystemBuilder,
-    component: Rated,
+    component: Any,
     quantity: str,
     ends: tuple[str, str],
     numbers: list[float] | None = None,

@@ -35,7 +35,8 @@ from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.elements.patch import axis, minus, plus
 from nivel.kernels.record.record import record_at
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere
-from nivel.machine.bodies.solids import box_size, length
+from nivel.machine.bodies.solids import box_size
+from nivel.machine.bodies.solids import length as bar_length
 from nivel.machine.bodies.touching import Touching
 from nivel.native.function import leaf, stage
 
@@ -226,9 +227,9 @@ def ground_shape(body: Touching, corners: Callable[[Touching], NDArray[np.float6
         case Box():
             return BOX, 8, [0.5 * side for side in box_size(body.shape)]
         case Cylinder():
-            return CYLINDER, 8, [body.shape.radius, 0.5 * length(body.shape)]
+            return CYLINDER, 8, [body.shape.radius, 0.5 * bar_length(body.shape)]
         case Capsule():
-            return CAPSULE, 2, [body.shape.radius, 0.5 * length(body.shape)]
+            return CAPSULE, 2, [body.shape.radius, 0.5 * bar_length(body.shape)]
         case Extrusion() | Mesh():
             found = corners(body)
             return HULL, len(found), found.ravel().tolist()

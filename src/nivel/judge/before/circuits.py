@@ -273,7 +273,8 @@ def volume_remarks(machine: MachineRecord) -> Said:
 def _of_commands(machine: MachineRecord) -> Said:
     """Commands of valves that are of the size of percents."""
     ranges = {f"{each.name}.value": each.range for each in machine.inputs}
-    ranges |= {f"{each.name}.value": each.limits for each in machine.control if getattr(each, "limits", None)}
+    limits = {f"{block.name}.value": getattr(block, "limits", None) for block in machine.control}
+    ranges |= {path: ends for path, ends in limits.items() if ends}
     for component in machine.hydraulics:
         command = getattr(component, "command", None)
         largest = _largest_of(command, ranges, machine.simulation.duration or 1.0)

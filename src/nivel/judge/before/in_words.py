@@ -167,8 +167,9 @@ def component_in_words(component: Component) -> str:
         if isinstance(component, Ends)
         else ""
     )
-    usual = isinstance(component, Volume) and "volume" not in component.model_fields_set
-    size = f" of {1e3 * component.volume:g} L, as none is given" if usual else ""
+    size = ""
+    if isinstance(component, Volume) and "volume" not in component.model_fields_set:
+        size = f" of {1e3 * component.volume:g} L, as none is given"
     return f"{component.name}: {component.type}{size}{on}{f', {ports}' if ports else ''}"
 
 

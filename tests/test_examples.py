@@ -11,7 +11,7 @@ import nivel
 from example_files import EXAMPLES, RIGID
 from references import andrews, four_bar, heavy_top, pendulum, slider_crank
 
-NOT_UNIQUE = {("redundancy", "four-bar-revolutes"), ("friction", "gripper")}
+NOT_UNIQUE = {("redundancy", "four-bar-revolutes"), ("shared_friction", "gripper")}
 
 
 @pytest.mark.parametrize(

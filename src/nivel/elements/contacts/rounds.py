@@ -35,7 +35,8 @@ from nivel.kernels.algebra.spatial import dot
 from nivel.kernels.elements.patch import axis, minus
 from nivel.kernels.record.record import record_at
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere
-from nivel.machine.bodies.solids import box_size, length
+from nivel.machine.bodies.solids import box_size
+from nivel.machine.bodies.solids import length as bar_length
 from nivel.machine.bodies.touching import Touching
 from nivel.native.function import leaf, part, stage
 
@@ -368,9 +369,9 @@ def distance_numbers(body: Touching, part: int | None) -> tuple[int, list[float]
         case Box():
             return BOX, [0.5 * side for side in box_size(body.shape)]
         case Cylinder():
-            return CYLINDER, [body.shape.radius, 0.5 * length(body.shape)]
+            return CYLINDER, [body.shape.radius, 0.5 * bar_length(body.shape)]
         case Capsule():
-            return SEGMENT, [0.5 * length(body.shape)]
+            return SEGMENT, [0.5 * bar_length(body.shape)]
         case Extrusion() | Mesh():
             return HULL, polytope_of(body, part)
     raise ValueError(f"{body.name} has no shape that can touch")
@@ -384,7 +385,7 @@ def points_of_round(force: Contact, bodies: Sequence[Touching]) -> Points:
         first = next(k for k, body in enumerate(bodies) if isinstance(body.shape, Capsule))
     own, other = bodies[first].shape, bodies[1 - first]
     assert isinstance(own, Sphere | Capsule)  # the record was checked
-    half = 0.0 if isinstance(own, Sphere) else 0.5 * length(own)
+    half = 0.0 if isinstance(own, Sphere) else 0.5 * bar_length(own)
     kind, numbers = distance_numbers(other, part_of(force, bodies, 1 - first))
     core = other.shape.radius if isinstance(other.shape, Capsule) else 0.0
     balls = own.radius + half + ball_of_shape(other)

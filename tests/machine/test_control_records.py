@@ -77,6 +77,10 @@ ONE_BLOCK = [
         "10 control.a.band: samples of every 0.01 s have frequencies up to 50 Hz, got 60 Hz",
     ),
     ("a: {type: quantiser, input: 1, step: 1}", "10 control.a: `sample_time` is missing"),
+    (
+        "a: {type: bus, inputs: [1, level], cycle: 1 ms, sample_time: 1 ms}",
+        "10 control.a.inputs: signals with names were expected, as in `inputs: {angle: hinge.angle}`",
+    ),
     ("a: {type: map, inputs: [1], points: [[1, 2]], values: [[1, 2]]}", "10 control.a.inputs: a map has two or three"),
     (
         "a: {type: map, inputs: [1, 2], points: [[1, 2], [3, 4]], values: [[1, 2]]}",

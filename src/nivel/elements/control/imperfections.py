@@ -18,7 +18,7 @@ from nivel.machine.core.record import Name, Record, entry
 from nivel.machine.given import Field, Given, Maybe, OneNumber, TwoNumbers
 from nivel.machine.laws.time_function import SomeFunction
 from nivel.machine.units.formula import Formula, formula, linear, sum_of
-from nivel.machine.units.quantity import Duration, Quantity, listed
+from nivel.machine.units.quantity import Duration, Quantity, fault, listed, shown
 from nivel.machine.units.tree import Call, Operation, Time
 from nivel.machine.units.tree import Number as Constant
 
@@ -102,6 +102,12 @@ def _given_signals(value: Any) -> Any:
     return [{"name": name, "value": each} for name, each in value.items()] if isinstance(value, Mapping) else value
 
 
+def _named_signals(value: Any) -> Any:
+    if isinstance(value, str) or (isinstance(value, Sequence) and any(isinstance(signal, str) for signal in value)):
+        raise fault(f"signals with names were expected, as in `inputs: {{angle: hinge.angle}}`; got {shown(value)}")
+    return _given_signals(value)
+
+
 class Bus(Block):
     """Signals that are sent together once a cycle and arrive later: `NAME.SIGNAL`, of which the first is also `NAME.value`.
 
@@ -114,7 +120,7 @@ class Bus(Block):
     type: Literal["bus"] = "bus"
     inputs: Annotated[
         Given[tuple[BusSignal, ...], tuple[BusSignal, ...], Mapping[str, SomeFunction] | Sequence[BusSignal]],
-        BeforeValidator(_given_signals),
+        BeforeValidator(_named_signals),
     ] = Field(description="name → signal")
     cycle: Duration = Field(description="time between messages, a whole number of samples")
     jitter: NotNegativeTime = Field(default=0.0, description="largest random part of the time from sending to arrival")

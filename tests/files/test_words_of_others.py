@@ -44,7 +44,12 @@ MISTAKES = {
     "one body": ("bodies: [ground, rod]", "bodies: rod", 10, "write `bodies: [ground, rod]`"),
     "origin of a joint": ("point: [0, 0, 0]", "origin: [0, 0, 0]", 10, RATHER.format("point")),
     "a letter as an axis": ("axis: [0, 0, 1]}\nf", "axis: z}\nf", 10, "write `axis: [0, 0, 1]`"),
-    "limits": ("axis: [0, 0, 1]}\nf", "axis: [0, 0, 1], limits: [0, 1]}\nf", 10, "type: stop"),
+    "limits": (
+        "axis: [0, 0, 1]}\nf",
+        "axis: [0, 0, 1], limits: [0, 1]}\nf",
+        10,
+        "`stops: {lower: -1, upper: 1, stiffness: 1e4, restitution: 0.5}`",
+    ),
     "damping": ("axis: [0, 0, 1]}\nf", "axis: [0, 0, 1], damping: 3}\nf", 10, "type: joint-spring-damper"),
     "t_end": ("duration: 1 s", "t_end: 1", 14, RATHER.format("duration")),
     "stop_time": ("duration: 1 s", "stop_time: 1 s", 14, RATHER.format("duration")),

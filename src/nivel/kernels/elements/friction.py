@@ -80,8 +80,6 @@ BOUND = 1e3
 DIFFERENT = 1e-9
 # Where patches that hold are more than one motion needs, what is left of a pivot of S below this share of the largest is round-off.
 DEPENDENT = 1e-9
-# Where patches that hold are more than one motion needs, what is left of a pivot of S below this share of the largest is round-off.
-DEPENDENT = 1e-9
 # S_kk as this share of 1/m is round-off: the motion is prescribed.
 PRESCRIBED = 1e-7
 # So much of the larger S_kk of both tangents of a patch is added to all, where its motion may be prescribed; elsewhere it is taken out.

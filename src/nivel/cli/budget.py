@@ -8,15 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from nivel.cli.options import (
-    allow_code_option,
-    file_argument,
-    override_option,
-    quiet_option,
-    separated,
-    setting_options,
-    tick_option,
-)
+from nivel.cli import options
 from nivel.errors import Fault, ModelError
 from nivel.lazy import nivel
 from nivel.settings import StepSettingsDict
@@ -26,19 +18,19 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@file_argument("machine")
-@override_option
-@allow_code_option
-@setting_options(StepSettingsDict, "step", "formulation", "coordinates", "stabilisation")
-@tick_option
+@options.file_argument("machine")
+@options.override_option
+@options.allow_code_option
+@options.setting_options(StepSettingsDict, "step", "formulation", "coordinates", "stabilisation")
+@options.tick_option
 @click.option(
     "--integrators",
     metavar="NAMES",
     multiple=True,
-    callback=separated,
+    callback=options.separated,
     help="Methods to compare; default: that of the file and all that need no compilation.",
 )
-@quiet_option
+@options.quiet_option
 def command(
     machine: str,
     overrides: dict[str, str],

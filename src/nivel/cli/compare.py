@@ -7,19 +7,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
+from nivel.cli import options
 from nivel.cli.failures import COMPUTATION_FAILED, INPUT_AT_FAULT
-from nivel.cli.options import (
-    allow_code_option,
-    file_argument,
-    force_option,
-    json_option,
-    no_report_option,
-    override_option,
-    quiet_option,
-    report_option,
-    resume_option,
-    setting_options,
-)
 from nivel.cli.progress import progress_listener
 from nivel.cli.sweep import is_complete, say_how_to_go_on
 from nivel.errors import Fault, ModelError
@@ -36,8 +25,8 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
 
 
 @click.command()
-@file_argument("machine")
-@setting_options(CompareSettingsDict)
+@options.file_argument("machine")
+@options.setting_options(CompareSettingsDict)
 @click.option(
     "--repeat",
     type=click.IntRange(1),
@@ -45,8 +34,8 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
     show_default=True,
     help="Number of runs of every combination; the fastest counts.",
 )
-@override_option
-@allow_code_option
+@options.override_option
+@options.allow_code_option
 @click.option(
     "-o",
     "--out",
@@ -54,12 +43,12 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
     type=click.Path(dir_okay=False, path_type=Path),
     help="Table, .csv or .json. May be repeated; default: NAME-compare.csv and .json in the working directory.",
 )
-@report_option("table")
-@no_report_option
-@resume_option
-@force_option
-@quiet_option
-@json_option
+@options.report_option("table")
+@options.no_report_option
+@options.resume_option
+@options.force_option
+@options.quiet_option
+@options.json_option
 def command(
     machine: str,
     repeat: int,

@@ -12,16 +12,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
+from nivel.cli import options
 from nivel.cli.failures import COMPUTATION_FAILED
-from nivel.cli.options import (
-    allow_code_option,
-    file_argument,
-    force_option,
-    override_option,
-    quiet_option,
-    setting_options,
-    tick_option,
-)
 from nivel.errors import ModelError
 from nivel.lazy import nivel
 from nivel.settings import StepSettingsDict
@@ -37,17 +29,17 @@ TOLD: Final = 1.0  # s in which pages hear that the solver has ended
 
 
 @click.command()
-@file_argument("machine")
-@override_option
-@allow_code_option
-@setting_options(StepSettingsDict, "step", "integrator", "formulation", "coordinates", "stabilisation")
-@tick_option
+@options.file_argument("machine")
+@options.override_option
+@options.allow_code_option
+@options.setting_options(StepSettingsDict, "step", "integrator", "formulation", "coordinates", "stabilisation")
+@options.tick_option
 @click.option(
     "--record",
     type=click.Path(dir_okay=False),
     help="Record into this file, for `nivel replay`. FILE.part until the run ends.",
 )
-@force_option
+@options.force_option
 @click.option(
     "--udp",
     metavar="HOST:PORT",
@@ -62,7 +54,7 @@ TOLD: Final = 1.0  # s in which pages hear that the solver has ended
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen at; default: any free port.")
 @click.option("--no-browser", is_flag=True, help="Do not open a browser.")
 @click.option("--no-priority", is_flag=True, help="Do not ask for real-time priority and locked memory.")
-@quiet_option
+@options.quiet_option
 def command(
     machine: str,
     overrides: dict[str, str],

@@ -8,16 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from nivel.cli.options import (
-    file_argument,
-    force_option,
-    json_option,
-    no_report_option,
-    out_option,
-    override_option,
-    quiet_option,
-    report_option,
-)
+from nivel.cli import options
 from nivel.cli.progress import progress_stage
 from nivel.errors import ModelError
 from nivel.lazy import nivel, rich
@@ -30,19 +21,19 @@ SHOWN = 15  # modes in the table of the terminal
 
 
 @click.command()
-@file_argument("model")
-@override_option
-@out_option("Body file", "NAME.nc", None)
-@report_option("body file")
-@no_report_option
+@options.file_argument("model")
+@options.override_option
+@options.out_option("Body file", "NAME.nc", None)
+@options.report_option("body file")
+@options.no_report_option
 @click.option(
     "--vtk",
     type=click.Path(dir_okay=False, path_type=Path),
     help="Also write the modes for ParaView: a .pvd file and its .vtu files.",
 )
-@force_option
-@quiet_option
-@json_option
+@options.force_option
+@options.quiet_option
+@options.json_option
 def command(
     model: str,
     overrides: dict[str, str],

@@ -8,6 +8,7 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.errors import Fault, refuse
+from nivel.exchange import joint_forces
 from nivel.exchange.bodies import (
     MASSLESS,
     Group,
@@ -23,18 +24,6 @@ from nivel.exchange.bodies import (
     possible,
 )
 from nivel.exchange.contacts import contacts_of, meet
-from nivel.exchange.joint_forces import (
-    actuated,
-    add_starts,
-    coordinate_of,
-    coupling_of,
-    parts_of,
-    pulled,
-    rope_force,
-    span_joint,
-    spring_of,
-    start_values,
-)
 from nivel.exchange.looks import Drawing
 from nivel.exchange.mechanism import MOST_LINKS, WORLD, Connection, Frame, Inertial, Mechanism
 from nivel.exchange.translation import Names, Translation, number, triple, turn
@@ -55,7 +44,7 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
     refuse(faults)
     names, groups = Names(), groups_of(mechanism)
     offset(mechanism, groups)
-    starts = start_values(mechanism)
+    starts = joint_forces.start_values(mechanism)
     if _is_tree(mechanism, groups) and _has_free_root(mechanism, groups):  # which the assembly would turn
         for each in mechanism.connections:
             if each.name in starts:
@@ -71,11 +60,11 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
     refuse(faults)
     if not bodies:
         refuse([Fault(file, 1, 1, "", "nothing in this model moves: every link is fixed to the ground")])
-    add_starts(mechanism, starts, names, joints)
+    joint_forces.add_starts(mechanism, starts, names, joints)
     couplings, forces, inputs, states = {}, {}, {}, {}
     at_joint: dict[str, float] = {}
     for each in mechanism.connections:
-        coupling = coupling_of(each, mechanism, names)
+        coupling = joint_forces.coupling_of(each, mechanism, names)
         if coupling is not None:
             couplings[names.new(f"{each.name}_mimic", "coupling")] = coupling
         moved = carried(mechanism, groups, each)
@@ -83,17 +72,17 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
         at_joint[each.name] = effective + each.armature
         if each.kind != "fixed":
             joint = names.name("joint", each.name)
-            joints[joint] |= parts_of(each, effective + each.armature, mechanism)
+            joints[joint] |= joint_forces.parts_of(each, effective + each.armature, mechanism)
             for made in ("stop", "friction"):
                 names.new(f"{joint}_{made}", "force")
-        for suffix, force in spring_of(each, names).items():
+        for suffix, force in joint_forces.spring_of(each, names).items():
             forces[names.new(f"{each.name}_{suffix}", "force")] = force
     for span in mechanism.spans:
-        joints[names.name("joint", span.name)] = span_joint(span, mechanism, groups, names)
+        joints[names.name("joint", span.name)] = joint_forces.span_joint(span, mechanism, groups, names)
         weights = [lumped(mechanism, groups[link]) for link, _ in span.ends if groups[link].first != WORLD]
         at_joint[span.name] = 1.0 / max(sum(1.0 / each.mass for each in weights if each is not None), 1e-12)
     for name, terms in mechanism.sums:
-        of = {name: coordinate_of(each, names) for name, each in mechanism.measured.items()}
+        of = {name: joint_forces.coordinate_of(each, names) for name, each in mechanism.measured.items()}
         coupling = {
             "type": "linear",
             "coordinates": [of[joint] for joint, _ in terms],
@@ -102,15 +91,15 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
         couplings[names.new(name, "coupling")] = coupling
     for actuator in mechanism.actuators:
         control = names.name("input", actuator.name)
-        made = actuated(actuator, control, mechanism, names)
+        made = joint_forces.actuated(actuator, control, mechanism, names)
         inputs, states = inputs | made["inputs"], states | made["states"]
         forces |= {names.new(name, "force"): force for name, force in made["forces"].items()}
     for tendon in mechanism.tendons:
         effective = 1.0 / sum(factor**2 / max(at_joint[joint], 1e-12) for joint, factor in tendon.terms)
-        made = pulled(tendon, effective, mechanism, names)
+        made = joint_forces.pulled(tendon, effective, mechanism, names)
         forces |= {names.new(name, "force"): force for name, force in made.items()}
     for rope in mechanism.ropes:
-        forces[names.new(rope.name, "force")] = rope_force(rope, mechanism, groups, names)
+        forces[names.new(rope.name, "force")] = joint_forces.rope_force(rope, mechanism, groups, names)
     for link, point, vector in mechanism.lifts:
         group = groups[link]
         if group.first != WORLD:

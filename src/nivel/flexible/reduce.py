@@ -17,15 +17,7 @@ from nivel.flexible.model.frame import frame_model
 from nivel.flexible.model.model import AXES, Array, FiniteElementModel, lumped
 from nivel.flexible.model.model_file import Located, read_model
 from nivel.flexible.model.selection import NodeSets
-from nivel.flexible.reduction.bases import (
-    Basis,
-    ModeCount,
-    craig_bampton,
-    free_interface,
-    inertia_modes,
-    normal_only,
-    stiffening,
-)
+from nivel.flexible.reduction import bases
 from nivel.flexible.reduction.factor import NoStiffnessError, Whole
 from nivel.flexible.reduction.free_body import FreeBody, Orthonormal, held_at, orthonormal
 from nivel.flexible.reduction.given_modes import given_modes
@@ -158,21 +150,21 @@ def _rows(model: FiniteElementModel, node: int) -> Whole:
     return model.expansion[full].indices.astype(np.int64)
 
 
-def _basis(body: FreeBody, boundary: Whole, located: Located) -> Basis:
+def _basis(body: FreeBody, boundary: Whole, located: Located) -> bases.Basis:
     reduction = located.record.reduction
     if reduction.modes.given:
         return given_modes(body, boundary, located)
-    modes = ModeCount(reduction.modes.count, reduction.modes.up_to)
+    modes = bases.ModeCount(reduction.modes.count, reduction.modes.up_to)
     match reduction.method:
         case "craig-bampton":
-            basis = craig_bampton(body, boundary, modes)
+            basis = bases.craig_bampton(body, boundary, modes)
         case "free-interface":
-            basis = free_interface(body, boundary, modes)
+            basis = bases.free_interface(body, boundary, modes)
         case "normal-modes":
-            basis = normal_only(body, boundary, modes)
+            basis = bases.normal_only(body, boundary, modes)
     if not reduction.inertia_modes:
         return basis
-    own = inertia_modes(body, boundary)
+    own = bases.inertia_modes(body, boundary)
     return replace(basis, vectors=np.hstack([own, basis.vectors]), extra=own.shape[1])
 
 
@@ -208,7 +200,7 @@ def _with_reference(
 
 
 def _left_out(
-    body: FreeBody, modes: Array, found: Orthonormal, basis: Basis, attachments: tuple[Attachment, ...]
+    body: FreeBody, modes: Array, found: Orthonormal, basis: bases.Basis, attachments: tuple[Attachment, ...]
 ) -> LeftOut:
     """The next modes. Where they do not move the interfaces they are taken as they are, and their loads need no loads there."""
     candidates = basis.left if basis.held else beside_kept(body, found.modes, basis.left)
@@ -279,4 +271,4 @@ def _stiffening(
     support = rows.get(chosen, body.pins)
     if len(support) < 6:
         chosen, support = "", body.pins
-    return stiffening(body, modes, support, {name: its for name, its in rows.items() if name != chosen})
+    return bases.stiffening(body, modes, support, {name: its for name, its in rows.items() if name != chosen})

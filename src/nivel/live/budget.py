@@ -18,22 +18,7 @@ from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.progress.log import Listener
 from nivel.errors import ModelError
-from nivel.integrate.loop.paced import (
-    CLOCK,
-    DEADLINE,
-    DONE,
-    FROM_TAPE,
-    HEARD,
-    LATEST,
-    LONGEST,
-    NOW,
-    PACED,
-    SHOWN,
-    SLEEP,
-    SPEED,
-    TICKS,
-    drive,
-)
+from nivel.integrate.loop import paced
 from nivel.integrate.loop.run import TIME
 from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.output.observe import observe
@@ -112,7 +97,7 @@ def fixed_methods() -> list[str]:
 def is_compiled(machine: MachineRecord, settings: Mapping[str, Any], tick: float | None) -> bool:
     """Whether a live run with these settings needs no compiler. Raises ModelError where there is no such run."""
     plan, _ = live_plan(machine, settings, tick)
-    return not library.missing([*run_entries(plan), drive])
+    return not library.missing([*run_entries(plan), paced.drive])
 
 
 def costs(
@@ -132,7 +117,7 @@ def costs(
             if compiled_only and not is_compiled(machine, chosen, tick):
                 continue
             plan, pace = live_plan(machine, chosen, tick)
-            build([*run_entries(plan), drive, *ENTRIES], listener)
+            build([*run_entries(plan), paced.drive, *ENTRIES], listener)
             (listener or Listener()).say(f"measuring {name}")
             if first:
                 exact = _exact(machine, chosen, pace)
@@ -198,7 +183,7 @@ def _cost(name: str, plan: Plan, pace: Pace, exact: Array | None, *, at_rest: bo
     if run.loop() == BUDGET_SPENT:
         off = nan if exact is None else float(np.max(np.linalg.norm(run.places() - exact, axis=1), initial=0.0))
     else:
-        note = f"with moved levers the run ends at {int(run.live.control[DONE]) * pace.tick:.4g} s"
+        note = f"with moved levers the run ends at {int(run.live.control[paced.DONE]) * pace.tick:.4g} s"
         run = _Run(prepared_run(plan, pace), moved=False)
         if not at_rest or run.loop() != BUDGET_SPENT:
             return Cost(name, None, {}, note)
@@ -223,11 +208,11 @@ class _Run:
         self.live = live = live_in(bytearray(bytes_of(its.sizes)), its.sizes)
         self.loop = its.begin(live)
         ticks = max(TICKS_AT_LEAST, int(DURATION / its.pace.tick))
-        live.address[[CLOCK, SLEEP]] = clock_addresses()
-        live.address[[NOW, DEADLINE]] = live.now.ctypes.data, live.deadline.ctypes.data
-        live.clock[SPEED] = 1e12
-        live.control[[PACED, TICKS, FROM_TAPE]] = 1, ticks, int(moved)
-        live.control[HEARD] = time.clock_gettime_ns(time.CLOCK_MONOTONIC)
+        live.address[[paced.CLOCK, paced.SLEEP]] = clock_addresses()
+        live.address[[paced.NOW, paced.DEADLINE]] = live.now.ctypes.data, live.deadline.ctypes.data
+        live.clock[paced.SPEED] = 1e12
+        live.control[[paced.PACED, paced.TICKS, paced.FROM_TAPE]] = 1, ticks, int(moved)
+        live.control[paced.HEARD] = time.clock_gettime_ns(time.CLOCK_MONOTONIC)
         self._arrays = arrays_of([*its.records, (live.value,)])
         self._start = taken(self._arrays, 0)
         if moved:
@@ -239,8 +224,8 @@ class _Run:
         put_back(self._arrays, self._start)
         live.target[:] = [values.get(each.name, each.rest_value) for each in self.its.plan.machine.inputs]
         live.histogram[:] = 0
-        control[[DONE, LONGEST, LATEST, FROM_TAPE]] = 0
-        control[TICKS], control[HEARD] = max(1, round(1.0 / pace.tick)), np.iinfo(np.int64).max // 2
+        control[[paced.DONE, paced.LONGEST, paced.LATEST, paced.FROM_TAPE]] = 0
+        control[paced.TICKS], control[paced.HEARD] = max(1, round(1.0 / pace.tick)), np.iinfo(np.int64).max // 2
         before, status = None, BUDGET_SPENT
         for second in range(1, HELD + 1):
             status = self.loop()
@@ -249,11 +234,11 @@ class _Run:
             before = after
             if status != BUDGET_SPENT or (still and second >= HELD_AT_LEAST):
                 break
-        return Held(values, timing_of(live), nan if status == BUDGET_SPENT else int(control[DONE]) * pace.tick)
+        return Held(values, timing_of(live), nan if status == BUDGET_SPENT else int(control[paced.DONE]) * pace.tick)
 
     def pose(self) -> Array:
         """Positions [m] and Euler parameters of all bodies in the newest frame."""
-        newest = self.live.frames[int(self.live.control[SHOWN] - 1) % len(self.live.frames)]
+        newest = self.live.frames[int(self.live.control[paced.SHOWN] - 1) % len(self.live.frames)]
         layout = self.its.prepared.motion.system.layout.variables
         return np.concatenate([newest[each.columns] for each in layout if each.name in ("position", "orientation")])
 

@@ -14,19 +14,7 @@ import numpy as np
 import nivel
 from nivel.errors import ModelError
 from nivel.lazy import dataclass, field
-from nivel.live.journal import (
-    FRAMES,
-    GAP,
-    PART,
-    TICKS,
-    Block,
-    Journal,
-    about_in,
-    blocks_in,
-    is_journal,
-    journal_of,
-    rows_of,
-)
+from nivel.live import journal as journals
 from nivel.live.preparation import Pace
 from nivel.machine.core.vectors import Array
 from nivel.machine.laws.time_function import Table
@@ -129,36 +117,36 @@ class _Kept:
 
     before: int
     ticks: int
-    tape: list[Block] = field(default_factory=list)
-    frames: list[Block] = field(default_factory=list)
+    tape: list[journals.Block] = field(default_factory=list)
+    frames: list[journals.Block] = field(default_factory=list)
     whole: bool = True
 
 
 def _kept_in(file: IO[bytes], start: int, *, last_whole: bool) -> list[_Kept]:
     """The parts of a journal whose blocks begin at `start`."""
     out: list[_Kept] = []
-    for block in blocks_in(file, start):
-        if block.kind == PART:
-            before, ticks = rows_of(file, [block], block.columns)[0]
+    for block in journals.blocks_in(file, start):
+        if block.kind == journals.PART:
+            before, ticks = journals.rows_of(file, [block], block.columns)[0]
             out.append(_Kept(int(before), int(ticks)))
-        elif block.kind == TICKS:
+        elif block.kind == journals.TICKS:
             out[-1].tape.append(block)
-        elif block.kind == FRAMES:
+        elif block.kind == journals.FRAMES:
             out[-1].frames.append(block)
-        elif block.kind == GAP:
+        elif block.kind == journals.GAP:
             out[-1].whole = False
     if out and not last_whole:
         out[-1].whole = False
     return out
 
 
-def _columns(blocks: Sequence[Block]) -> int:
+def _columns(blocks: Sequence[journals.Block]) -> int:
     return blocks[0].columns if blocks else 1
 
 
 def parts_in(file: IO[bytes], *, last_whole: bool) -> list[Part]:
     """The parts of a journal. last_whole : whether the last one ends where its motion did. Raises ValueError."""
-    _, start = about_in(file)
+    _, start = journals.about_in(file)
     kept = _kept_in(file, start, last_whole=last_whole)
     # a part without a tick has the columns of the others
     inputs = max((_columns(each.tape) for each in kept), default=1)
@@ -167,19 +155,19 @@ def parts_in(file: IO[bytes], *, last_whole: bool) -> list[Part]:
         Part(
             each.before,
             each.ticks,
-            Take(rows_of(file, each.tape, inputs), rows_of(file, each.frames, width), each.whole),
+            Take(journals.rows_of(file, each.tape, inputs), journals.rows_of(file, each.frames, width), each.whole),
         )
         for each in kept
     ]
 
 
-def complete(journal: Journal, target: Path, *, last_whole: bool) -> None:
+def complete(journal: journals.Journal, target: Path, *, last_whole: bool) -> None:
     """Write what a journal has into the recording `target`, in one atomic step, and remove the journal.
 
     It goes from file to file, so a long run need not fit in memory. Raises OSError; then the journal stays.
     """
     file = journal.file
-    about, start = about_in(file)
+    about, start = journals.about_in(file)
     kept = _kept_in(file, start, last_whole=last_whole)
     about["parts"] = [[each.before, each.ticks, each.whole] for each in kept]
     with whole(target) as draft, ZipFile(draft, "w", ZIP_DEFLATED) as archive:
@@ -191,7 +179,7 @@ def complete(journal: Journal, target: Path, *, last_whole: bool) -> None:
     journal.discard()
 
 
-def _copy(file: IO[bytes], blocks: Sequence[Block], archive: ZipFile, name: str) -> None:
+def _copy(file: IO[bytes], blocks: Sequence[journals.Block], archive: ZipFile, name: str) -> None:
     """The numbers of blocks as an array of an archive of NumPy."""
     shape = sum(each.rows for each in blocks), _columns(blocks)
     with archive.open(name, "w", force_zip64=True) as out:
@@ -204,9 +192,9 @@ def _copy(file: IO[bytes], blocks: Sequence[Block], archive: ZipFile, name: str)
 def read_recording(path: str | PathLike[str]) -> Recording:
     """Read a recording, or the journal of a run that was killed or goes on. Raises ModelError where the file is none."""
     try:
-        about, parts = _from_journal(Path(path)) if is_journal(Path(path)) else _from_archive(path)
+        about, parts = _from_journal(Path(path)) if journals.is_journal(Path(path)) else _from_archive(path)
     except FileNotFoundError:
-        left = journal_of(Path(path))
+        left = journals.journal_of(Path(path))
         if left.exists():
             raise ModelError(
                 f"there is no file {fspath(path)}, but {left}, which a run wrote that was killed or goes on: `nivel replay {left}`"
@@ -236,7 +224,7 @@ def _from_archive(path: str | PathLike[str]) -> tuple[dict[str, Any], list[Part]
 
 def _from_journal(path: Path) -> tuple[dict[str, Any], list[Part]]:
     with path.open("rb") as file:
-        about, _ = about_in(file)
+        about, _ = journals.about_in(file)
         _refuse_other_format(path, about)
         return about, parts_in(file, last_whole=False)
 

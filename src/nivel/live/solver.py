@@ -14,21 +14,7 @@ from typing import Any, Final
 
 from nivel.analysis.plan.plan import Plan
 from nivel.errors import ModelError, NivelError
-from nivel.integrate.loop.paced import (
-    CLOCK,
-    COMMAND,
-    DEADLINE,
-    DONE,
-    MODE,
-    NEXT,
-    NOW,
-    PACED,
-    SAVED,
-    SHOWN,
-    SLEEP,
-    TICKS,
-    Live,
-)
+from nivel.integrate.loop import paced
 from nivel.integrate.loop.run import ACCEPTED, MOVING, REJECTED, STOPPED
 from nivel.integrate.loop.run import STEP as STEP_CLOCK
 from nivel.judge.during.failure import failure
@@ -106,11 +92,11 @@ def _facts(live_run: LiveRun) -> dict[str, Any]:
 class Solver:
     """A machine that lives in this process."""
 
-    def __init__(self, live_run: LiveRun, live: Live, pipe: Connection) -> None:
+    def __init__(self, live_run: LiveRun, live: paced.Live, pipe: Connection) -> None:
         self._its, self._live, self._pipe = live_run, live, pipe
         self._drive = live_run.begin(live)
-        live.address[[CLOCK, SLEEP]] = clock_addresses()
-        live.address[[NOW, DEADLINE]] = live.now.ctypes.data, live.deadline.ctypes.data
+        live.address[[paced.CLOCK, paced.SLEEP]] = clock_addresses()
+        live.address[[paced.NOW, paced.DEADLINE]] = live.now.ctypes.data, live.deadline.ctypes.data
         self._arrays = arrays_of([*live_run.records, (live.value,)])
         self._start = taken(self._arrays, 0)
         self._saved: Snapshot | None = None
@@ -124,42 +110,42 @@ class Solver:
             self._pipe.send(Told("said", sentence))
         self._warm_up()
         self._its.show(self._live)
-        control[MODE] = shared.PAUSED
-        control[PACED] = 1
+        control[paced.MODE] = shared.PAUSED
+        control[paced.PACED] = 1
         while True:
-            command = int(control[COMMAND])
+            command = int(control[paced.COMMAND])
             if command == shared.QUIT:
                 break
             if command:
                 self._obey(command)
-                control[NEXT] = 0
-                control[COMMAND] = 0
-            elif control[MODE] == shared.RUNNING:
+                control[paced.NEXT] = 0
+                control[paced.COMMAND] = 0
+            elif control[paced.MODE] == shared.RUNNING:
                 self._drive_once(max(1, int(ROUND / self._its.pace.tick)))
             else:
                 time.sleep(REST)
         self._pipe.send(Told("parts", facts=self._parts()))
-        control[MODE] = shared.GONE
+        control[paced.MODE] = shared.GONE
 
     def _parts(self) -> dict[str, float]:
         """Share of the computing time by part, where that can be measured without compiling."""
         control = self._live.control
-        control[PACED] = 0
-        if control[MODE] not in (shared.RUNNING, shared.PAUSED) or library.missing(ENTRIES):
+        control[paced.PACED] = 0
+        if control[paced.MODE] not in (shared.RUNNING, shared.PAUSED) or library.missing(ENTRIES):
             return {}
         return shares(self._its, control, self._drive)
 
     def _warm_up(self) -> None:
         """Some ticks that leave no trace: the first ones, whose code and memory were never touched before, take longest."""
         control = self._live.control
-        control[TICKS] = FIRST
+        control[paced.TICKS] = FIRST
         self._drive()
         put_back(self._arrays, self._start)
-        control[[DONE, SHOWN]] = 0
+        control[[paced.DONE, paced.SHOWN]] = 0
 
     def _drive_once(self, ticks: int) -> None:
         control = self._live.control
-        control[TICKS] = ticks
+        control[paced.TICKS] = ticks
         status = self._drive()
         self._tell_counts()
         if status == codes.BUDGET_SPENT:
@@ -168,12 +154,12 @@ class Solver:
         if status == codes.DONE:
             stopped = int(self._its.run.counter[STOPPED])
             events = self._its.prepared.motion.system.events
-            control[MODE] = shared.ENDED
+            control[paced.MODE] = shared.ENDED
             self._pipe.send(
                 Told("said", f"the run has ended{f' at the event {events[stopped - 1]}' if stopped else ''}; reset it")
             )
         else:
-            control[MODE] = shared.FAILED
+            control[paced.MODE] = shared.FAILED
             self._pipe.send(Told("failed", self._why(status)))
 
     def _tell_counts(self) -> None:
@@ -194,25 +180,25 @@ class Solver:
 
     def _obey(self, command: int) -> None:
         control = self._live.control
-        alive = control[MODE] in (shared.RUNNING, shared.PAUSED)
+        alive = control[paced.MODE] in (shared.RUNNING, shared.PAUSED)
         if command == shared.RUN and alive:
-            control[MODE] = shared.RUNNING
+            control[paced.MODE] = shared.RUNNING
         elif command == shared.PAUSE and alive:
-            control[MODE] = shared.PAUSED
+            control[paced.MODE] = shared.PAUSED
         elif command == shared.STEP and alive:
-            control[MODE] = shared.PAUSED
+            control[paced.MODE] = shared.PAUSED
             self._drive_once(1)
             self._its.show(self._live)
         elif command == shared.SAVE and alive:
-            self._saved = taken(self._arrays, int(control[DONE]))
-            control[SAVED] = self._saved.ticks
+            self._saved = taken(self._arrays, int(control[paced.DONE]))
+            control[paced.SAVED] = self._saved.ticks
         elif command == shared.RESET or (command == shared.RESTORE and self._saved is not None):
             self._go_to(self._start if command == shared.RESET or self._saved is None else self._saved)
 
     def _go_to(self, snapshot: Snapshot) -> None:
         control = self._live.control
         put_back(self._arrays, snapshot)
-        control[DONE] = snapshot.ticks
-        if control[MODE] != shared.RUNNING:
-            control[MODE] = shared.PAUSED
+        control[paced.DONE] = snapshot.ticks
+        if control[paced.MODE] != shared.RUNNING:
+            control[paced.MODE] = shared.PAUSED
         self._its.show(self._live)

@@ -11,21 +11,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.integrate.loop.paced import (
-    BIN_WIDTH,
-    BINS,
-    COMPUTING,
-    FIRST_BIN,
-    LATENESS,
-    LATEST,
-    LONGEST,
-    OVERRUNS,
-    OWN,
-    STRETCHED,
-    TICK,
-    TICKS,
-    Live,
-)
+from nivel.integrate.loop import paced
 from nivel.integrate.loop.repeated import halt, repeat_evaluation, repeat_family, repeat_rows
 from nivel.integrate.loop.run import BUDGET, DONE_STEPS, EVALUATIONS, EVENTS, FRAMES, TIME
 from nivel.kernels.core.status import BUDGET_SPENT
@@ -60,18 +46,18 @@ class Timing:
         return 1.0 / max(self.computing[3], 1e-9)
 
 
-def timing_of(live: Live) -> Timing:
+def timing_of(live: paced.Live) -> Timing:
     """The timing so far."""
     control = live.control
-    rows = live.histogram.reshape(2, BINS).copy()
+    rows = live.histogram.reshape(2, paced.BINS).copy()
     return Timing(
-        ticks=int(rows[COMPUTING].sum()),
-        tick=float(live.clock[TICK]),
-        computing=_percentiles(rows[COMPUTING], 1e-9 * float(control[LONGEST])),
-        lateness=_percentiles(rows[LATENESS], 1e-9 * float(control[LATEST])),
-        overruns=int(control[OVERRUNS]),
-        own=int(control[OWN]),
-        stretched=1e-9 * float(control[STRETCHED]),
+        ticks=int(rows[paced.COMPUTING].sum()),
+        tick=float(live.clock[paced.TICK]),
+        computing=_percentiles(rows[paced.COMPUTING], 1e-9 * float(control[paced.LONGEST])),
+        lateness=_percentiles(rows[paced.LATENESS], 1e-9 * float(control[paced.LATEST])),
+        overruns=int(control[paced.OVERRUNS]),
+        own=int(control[paced.OWN]),
+        stretched=1e-9 * float(control[paced.STRETCHED]),
     )
 
 
@@ -81,7 +67,7 @@ def _percentiles(counts: np.ndarray, longest: float) -> tuple[float, ...]:
     if not total:
         return (0.0,) * (len(PERCENTS) + 1)
     places = np.searchsorted(np.cumsum(counts), [np.ceil(total * percent / 100.0) for percent in PERCENTS])
-    ends = (float(1e-9 * FIRST_BIN * np.exp(BIN_WIDTH * (place + 1))) for place in places)
+    ends = (float(1e-9 * paced.FIRST_BIN * np.exp(paced.BIN_WIDTH * (place + 1))) for place in places)
     return *(min(end, longest) for end in ends), longest
 
 
@@ -181,7 +167,7 @@ def shares(live_run: LiveRun, control: Any, loop: Callable[[], int]) -> dict[str
     at, y, rate = float(run.clock[TIME]), run.y.copy(), np.zeros_like(run.y)
 
     def begin() -> int:
-        control[TICKS] = 0
+        control[paced.TICKS] = 0
         return loop()
 
     idle = _seconds(begin)  # of a call from here

@@ -9,17 +9,8 @@ import numpy as np
 
 from nivel.looks.poses import Array, Pose, ends_in_space
 from nivel.looks.ropes import belt_line, rope_line
+from nivel.report import strokes
 from nivel.report.drawing import Drawing, Frame, Label
-from nivel.report.strokes import (
-    END_ON,
-    coil_sign,
-    cylinder_sign,
-    dashed_sign,
-    ground_sign,
-    plane_sign,
-    rope_sign,
-    spring_sign,
-)
 
 FAR = 20.0  # a plane further away than this many lengths of the machine is left out
 HALF_PLANE = 34.0  # pixels of a plane to both sides of what touches it
@@ -47,16 +38,16 @@ def draw_force(drawing: Drawing, frame: Frame, force: dict[str, Any], poses: dic
     (x1, y1), (x2, y2) = ((float(x), float(y)) for x, y in ends)
     match force["type"]:
         case "spring-damper" | "spring-series":
-            sign = spring_sign((x1, y1), (x2, y2), frame.sign)
+            sign = strokes.spring_sign((x1, y1), (x2, y2), frame.sign)
         case "torsional-spring-damper":
-            sign = coil_sign(x1, y1, frame.sign)
+            sign = strokes.coil_sign(x1, y1, frame.sign)
         case "cylinder":
             barrel, rod, long = (float(each) * frame.scale for each in force["sizes"])
-            sign = cylinder_sign((x1, y1), (x2, y2), long, 2.0 * barrel, 2.0 * rod)
+            sign = strokes.cylinder_sign((x1, y1), (x2, y2), long, 2.0 * barrel, 2.0 * rod)
         case "rope":
-            sign = rope_sign(ends)
+            sign = strokes.rope_sign(ends)
         case _:
-            sign = dashed_sign((x1, y1), (x2, y2))
+            sign = strokes.dashed_sign((x1, y1), (x2, y2))
     title = f"{force['name']}: {force['type']}, {force['bodies'][0]} – {force['bodies'][1]}"
     drawing.links.append(f"<g><title>{escape(title)}</title>{sign}</g>")
     drawing.lines.append(ends)
@@ -77,7 +68,7 @@ def _draw_wound(drawing: Drawing, frame: Frame, rope: dict[str, Any], poses: dic
 def _draw_line(drawing: Drawing, element: dict[str, Any], joined: list[str], line: Array) -> None:
     """Draw a rope or belt along a line (n, 2) of pixels with its name at the longest part. joined : what it leads to, by name."""
     title = f"{element['name']}: {element['type']}, {' – '.join(joined)}"
-    drawing.links.append(f"<g><title>{escape(title)}</title>{rope_sign(line)}</g>")
+    drawing.links.append(f"<g><title>{escape(title)}</title>{strokes.rope_sign(line)}</g>")
     parts = np.stack([line[:-1], line[1:]], axis=1)
     drawing.lines.extend(parts)
     x, y = parts[np.argmax(np.linalg.norm(parts[:, 1] - parts[:, 0], axis=1))].mean(axis=0)
@@ -88,7 +79,7 @@ def _draw_ground(drawing: Drawing, frame: Frame, bodies: list[str], ends: Array)
     """Draw the sign of the ground at those of the ends (n, 2) of pixels that are on it."""
     for body, end in zip(bodies, ends, strict=True):
         if body == "ground":
-            drawing.links.insert(0, ground_sign(float(end[0]), float(end[1]), 0.8 * frame.sign))
+            drawing.links.insert(0, strokes.ground_sign(float(end[0]), float(end[1]), 0.8 * frame.sign))
             drawing.points.append(end + np.array([0.0, 14.0]))
 
 
@@ -118,14 +109,14 @@ def draw_plane(drawing: Drawing, frame: Frame, plane: Plane) -> None:
     normal, feet = plane
     right, up = frame.view.on_screen(normal)
     length = float(np.hypot(right, up))
-    if length <= END_ON:
+    if length <= strokes.END_ON:
         return
     along = np.array([up, right]) / length  # on the screen, down counted positive
     flat = frame.pixels(feet)
     places = flat @ along
     half = 0.5 * float(np.ptp(places)) + HALF_PLANE
     x, y = flat.mean(axis=0) + (0.5 * (places.min() + places.max()) - places.mean()) * along
-    drawing.links.insert(0, plane_sign(float(x), float(y), (float(right), -float(up)), half))
+    drawing.links.insert(0, strokes.plane_sign(float(x), float(y), (float(right), -float(up)), half))
     ends = np.array([x, y]) + half * np.outer([-1.0, 1.0], along)
     drawing.lines.append(ends)
     drawing.points += list(np.linspace(ends[0], ends[1], 7) + np.array([0.0, 4.0]))

@@ -17,31 +17,8 @@ from nivel.errors import located
 from nivel.kernels.bodies import rail
 from nivel.kernels.bodies.measure import measure
 from nivel.kernels.elements import friction
+from nivel.kernels.record import record
 from nivel.kernels.record.function import OUTPUT
-from nivel.kernels.record.record import (
-    BOTH,
-    ENDS_RUN,
-    ENDS_STEP,
-    FALLING,
-    FRICTION,
-    HOOKS,
-    MEASURE,
-    NOTED,
-    POINTS,
-    RAIL,
-    RISING,
-    SAMPLE,
-    SENSE,
-    Control,
-    Frames,
-    Hooks,
-    Joints,
-    Outputs,
-    Record,
-    Rotations,
-    Sensors,
-    Watched,
-)
 from nivel.kernels.residual import point_inertia as points
 from nivel.kernels.signals import sensor
 from nivel.kernels.signals.functions import compute, read_inputs, sample
@@ -82,7 +59,7 @@ def add_inputs(builder: SystemBuilder) -> None:
             builder.input_functions.append(function)
 
 
-DIRECTIONS = {"both": BOTH, "rising": RISING, "falling": FALLING}
+DIRECTIONS = {"both": record.BOTH, "rising": record.RISING, "falling": record.FALLING}
 # [s] time within which stiction stops a joint, until a run says better
 STICK = 1e-3
 # marks of an event that are watched, at most
@@ -103,11 +80,11 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
     if equations.normalisation:
         row_names += [f"{name}.euler_parameters" for name in names]
         units += ["1"] * len(names)
-    record, size = _record(builder, rows, units, equations)
+    whole, size = _record(builder, rows, units, equations)
     states = builder.elements.states
     layout = frame_layout(names, joints, list(builder.joint_coordinates), row_names, builder.outputs.entries, states)
     system = System(
-        record=record._replace(outputs=record.outputs._replace(column=index_array(first_columns(layout, states), 1))),
+        record=whole._replace(outputs=whole.outputs._replace(column=index_array(first_columns(layout, states), 1))),
         equations=equations,
         layout=layout,
         bodies=names,
@@ -170,7 +147,9 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
     return builder, rows
 
 
-def _record(builder: SystemBuilder, rows: RowTable, units: list[str], equations: Equations) -> tuple[Record, float]:
+def _record(
+    builder: SystemBuilder, rows: RowTable, units: list[str], equations: Equations
+) -> tuple[record.Record, float]:
     """The arrays, for rows with these units, and the size of the machine [m]."""
     machine, count = builder.machine, len(units)
     # these may still add to the builder
@@ -181,13 +160,13 @@ def _record(builder: SystemBuilder, rows: RowTable, units: list[str], equations:
     bodies = body_tables(machine, size)
     constraints = rows.arrays([size if unit == "m" else 1.0 for unit in units], len(builder.frictions), len(extra))
     saddle = saddle_tables(rows, builder, extra, len(machine.bodies), count, equations)
-    record = Record(
+    whole = record.Record(
         bodies=bodies,
-        rotations=empty(Rotations),
+        rotations=empty(record.Rotations),
         markers=markers,
         coordinates=builder.coordinates.arrays(),
         constraints=constraints,
-        joints=Joints(
+        joints=record.Joints(
             first_marker=index_array([pair[0] for pair in rows.first_marker], 1),
             rows=index_array(rows.spans, 2),
             part=index_array(rows.first_part, 1),
@@ -199,7 +178,7 @@ def _record(builder: SystemBuilder, rows: RowTable, units: list[str], equations:
         circuit=builder.circuit.arrays(),
         saddle=saddle,
         tree=empty_tree(constraints),
-        frames=Frames(bodies.R, bodies.theta, bodies.Rdot, bodies.Rddot),
+        frames=record.Frames(bodies.R, bodies.theta, bodies.Rdot, bodies.Rddot),
         flexible=no_flexible(),
         modal=no_modal_tree(),
         shared=shared_mass(builder, machine.beams),
@@ -208,28 +187,30 @@ def _record(builder: SystemBuilder, rows: RowTable, units: list[str], equations:
         partition=no_partition(),
         residual=no_residual(),
         newton=no_newton(),
-        sensors=Sensors(index_array(sensors, 4)),
+        sensors=record.Sensors(index_array(sensors, 4)),
         watched=watched,
         sampled=sampled,
-        outputs=Outputs(np.zeros(len(builder.outputs.entries)), index_array(rows.reports, 2), index_array([], 1)),
+        outputs=record.Outputs(
+            np.zeros(len(builder.outputs.entries)), index_array(rows.reports, 2), index_array([], 1)
+        ),
         hooks=_hooks(builder, sensors=bool(sensors), sampled=len(sampled.state) > 0),
         control=_control(count),
     )
-    return record, size
+    return whole, size
 
 
-def _watched(builder: SystemBuilder) -> Watched:
+def _watched(builder: SystemBuilder) -> record.Watched:
     """Events, the surfaces of contacts and stops, and the switches of all functions."""
     events, marked, taking = [], [], {state.event for state in builder.machine.states}
     for event in builder.machine.events:
-        ends = ENDS_RUN if event.stop else ENDS_STEP if event.name in taking else NOTED
+        ends = record.ENDS_RUN if event.stop else record.ENDS_STEP if event.name in taking else record.NOTED
         with located(f"events.{event.name}.when"):
             events.append((builder.function(event.when, sampled=True), DIRECTIONS[event.direction], ends))
-            marked += [(builder.function(mark, sampled=True), BOTH, MARK) for mark in _marks_of(event.when)]
+            marked += [(builder.function(mark, sampled=True), record.BOTH, MARK) for mark in _marks_of(event.when)]
     events += marked
     surfaces, switches = builder.elements.surfaces(), builder.functions.switches
     count = len(events) + len(surfaces) + len(switches)
-    return Watched(
+    return record.Watched(
         event=index_array(events, 3),
         surface=index_array(surfaces, 2),
         switch=index_array(switches, 2),
@@ -247,26 +228,26 @@ def _marks_of(when: object) -> Iterator[Expression]:
         yield from map(expression_of, found)
 
 
-def _hooks(builder: SystemBuilder, *, sensors: bool, sampled: bool) -> Hooks:
+def _hooks(builder: SystemBuilder, *, sensors: bool, sampled: bool) -> record.Hooks:
     """Addresses of the optional components of this machine."""
-    address = np.zeros(HOOKS, dtype=np.uint64)
+    address = np.zeros(record.HOOKS, dtype=np.uint64)
     if builder.coordinates.what:
-        address[MEASURE] = measure.address
+        address[record.MEASURE] = measure.address
     if builder.coordinates.rails:
-        address[RAIL] = rail.apply.address
+        address[record.RAIL] = rail.apply.address
     if any(beam.has_gradients for beam in builder.machine.beams):
-        address[POINTS] = points.apply.address
+        address[record.POINTS] = points.apply.address
     if builder.frictions:
-        address[FRICTION] = friction.apply.address
+        address[record.FRICTION] = friction.apply.address
     if sampled:
-        address[SAMPLE] = sample.address
+        address[record.SAMPLE] = sample.address
     if sensors:
-        address[SENSE] = sensor.apply.address
-    return Hooks(address)
+        address[record.SENSE] = sensor.apply.address
+    return record.Hooks(address)
 
 
-def _control(rows: int) -> Control:
-    return Control(
+def _control(rows: int) -> record.Control:
+    return record.Control(
         rank=np.array([rows, 0, 0], dtype=np.uint32),
         iterations=np.array([1, 0, 0], dtype=np.uint32),
         stabilise=np.zeros(4),

@@ -11,25 +11,11 @@ import numpy as np
 from nivel.errors import ModelError
 from nivel.machine.core.vectors import Array
 from nivel.results.result import Result
-from nivel.view import frames
+from nivel.view import frames, records
 from nivel.view.couplings import couplings
 from nivel.view.extent import extent
 from nivel.view.package import Block, to_bytes
 from nivel.view.playback import SERVED, Budget, playback, played_frames
-from nivel.view.records import (
-    PROTOCOL,
-    Command,
-    Coordinate,
-    Drive,
-    Hold,
-    Motion,
-    Moved,
-    Note,
-    Package,
-    Stage,
-    Status,
-    Take,
-)
 from nivel.view.stage import cast, flexible
 
 
@@ -60,19 +46,21 @@ class Source:
         """A column of a stage, one number a frame. Raises ModelError."""
         raise ModelError(f"there is no variable `{name}`")
 
-    def move(self, coordinate: str, value: float) -> Moved | None:
+    def move(self, coordinate: str, value: float) -> records.Moved | None:
         """Move a joint coordinate by hand; None where nothing can be moved."""
         return None
 
-    def reset(self) -> Moved | None:
+    def reset(self) -> records.Moved | None:
         """Put the machine back."""
         return None
 
-    def hear(self, page: object, said: Drive | Hold | Take | Command) -> Note | None:
+    def hear(
+        self, page: object, said: records.Drive | records.Hold | records.Take | records.Command
+    ) -> records.Note | None:
         """What a page that operates a live machine says."""
         return None
 
-    def status(self, page: object, dropped: int) -> Status | None:
+    def status(self, page: object, dropped: int) -> records.Status | None:
         """How a live machine is; None of others. dropped : messages of this page."""
         return None
 
@@ -141,7 +129,7 @@ class PosedMachine(Source):
         self._lock = Lock()
         block = Block()
         self._stage = machine_stage(name, movable.scene, record, block, movable.pose(), movable.movements)
-        self._package = to_bytes(Package(PROTOCOL, "machine", [self._stage]), block)
+        self._package = to_bytes(records.Package(records.PROTOCOL, "machine", [self._stage]), block)
 
     def package(self) -> bytes:
         return self._package
@@ -152,19 +140,19 @@ class PosedMachine(Source):
         undeformed = np.zeros((1, self._stage.layout.modes))
         return 0.0, frames.rows(position[None] - np.array(self._stage.origin), orientation[None], undeformed)[0]
 
-    def move(self, coordinate: str, value: float) -> Moved | None:
+    def move(self, coordinate: str, value: float) -> records.Moved | None:
         return self._moved(lambda: self._movable.move(coordinate, value))
 
-    def reset(self) -> Moved | None:
+    def reset(self) -> records.Moved | None:
         return self._moved(self._movable.reset)
 
-    def _moved(self, move: Callable[[], str | None]) -> Moved:
+    def _moved(self, move: Callable[[], str | None]) -> records.Moved:
         """What the page hears after a move, which says why it could not be made."""
         with self._lock:
             problem = move()
             values = self._movable.values()
         self.on_change()
-        return Moved("moved", values, problem or "")
+        return records.Moved("moved", values, problem or "")
 
 
 def machine_stage(
@@ -174,7 +162,7 @@ def machine_stage(
     block: Block,
     pose: tuple[Array, Array],
     movements: Sequence[Any] = (),
-) -> Stage:
+) -> records.Stage:
     """What is drawn of a machine in a pose. movements : as of `Movable`."""
     players = cast(scene, record, block)
     position, orientation = pose
@@ -182,8 +170,8 @@ def machine_stage(
     bending = flexible(scene, block, None)
     modes = max((each.first + each.modes.shape[0] for each in bending), default=0)
     row = frames.rows(position[None] - np.array(where.origin), orientation[None], np.zeros((1, modes)))
-    motion = Motion(block.add(np.zeros(1), "f8"), block.add(row.T), 1, 1)
-    return Stage(
+    motion = records.Motion(block.add(np.zeros(1), "f8"), block.add(row.T), 1, 1)
+    return records.Stage(
         name=name,
         title=name,
         up=where.up,
@@ -204,7 +192,8 @@ def machine_stage(
         surroundings=players.surroundings,
         couplings=couplings(players, position[None], orientation[None]),
         coordinates=[
-            Coordinate(m.name, m.name.partition(".")[0], m.unit, m.value, m.low, m.high, m.free) for m in movements
+            records.Coordinate(m.name, m.name.partition(".")[0], m.unit, m.value, m.low, m.high, m.free)
+            for m in movements
         ],
         motion=motion,
     )
@@ -213,9 +202,9 @@ def machine_stage(
 class Live(Source):
     """Frames that a program hands over while it runs: `show` keeps the newest, and is never waited for."""
 
-    def __init__(self, stage: Stage, block: Block) -> None:
+    def __init__(self, stage: records.Stage, block: Block) -> None:
         super().__init__()
-        self._package = to_bytes(Package(PROTOCOL, "live", [stage]), block)
+        self._package = to_bytes(records.Package(records.PROTOCOL, "live", [stage]), block)
         self._lock = Lock()
         self._newest: tuple[float, Array] | None = None
 

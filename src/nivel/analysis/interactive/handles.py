@@ -7,17 +7,10 @@ from typing import Protocol
 
 import numpy as np
 
+from nivel.analysis.assembly import turned_frame
 from nivel.analysis.assembly.closing import Aim
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.freedoms import Freedoms, coordinate_derivatives
-from nivel.analysis.assembly.turned_frame import (
-    ANGLES,
-    AXIS_NAMES,
-    SHIFTS,
-    FrameAim,
-    TurnedFrame,
-    rates_of_angles,
-)
 from nivel.elements.joints import JOINTS
 from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
@@ -112,17 +105,17 @@ class FrameHandle:
     size : [m] the machine's length.
     """
 
-    frame: TurnedFrame
+    frame: turned_frame.TurnedFrame
     axes: tuple[int, ...]
     size: float
 
     @property
     def names(self) -> tuple[str, ...]:
-        return tuple(f"{self.frame.name}.{AXIS_NAMES[axis]}" for axis in self.axes)
+        return tuple(f"{self.frame.name}.{turned_frame.AXIS_NAMES[axis]}" for axis in self.axes)
 
     @property
     def units(self) -> tuple[str, ...]:
-        return tuple("rad" if axis in ANGLES else "m" for axis in self.axes)
+        return tuple("rad" if axis in turned_frame.ANGLES else "m" for axis in self.axes)
 
     def state(self, motion: MotionEquations, q: Array, before: Array) -> Array:
         return self.frame.values(q, before)
@@ -137,14 +130,14 @@ class FrameHandle:
 
     def derivatives(self, motion: MotionEquations, q: Array, state: Array) -> Array:
         """Where all three angles are here, of the turn about the three axes: that is never singular."""
-        return self._all_derivatives(q, state, whole=set(ANGLES) <= set(self.axes))[list(self.axes)]
+        return self._all_derivatives(q, state, whole=set(turned_frame.ANGLES) <= set(self.axes))[list(self.axes)]
 
     def wish(self, wanted: Array, state: Array) -> Wish:
         values = dict(zip(self.axes, wanted.tolist(), strict=True))
-        return Wish(aims=(FrameAim(self.frame, values, state, self.size),))
+        return Wish(aims=(turned_frame.FrameAim(self.frame, values, state, self.size),))
 
     def single(self, k: int, value: float, state: Array) -> Wish:
-        return Wish(aims=(FrameAim(self.frame, {self.axes[k]: value}, state, self.size),))
+        return Wish(aims=(turned_frame.FrameAim(self.frame, {self.axes[k]: value}, state, self.size),))
 
     def needed(self, q: Array, state: Array, free: Freedoms) -> FrameHandle | None:
         """The handle with those axes only that move apart from each other; None where none moves."""
@@ -155,7 +148,7 @@ class FrameHandle:
     def _all_derivatives(self, q: Array, state: Array, *, whole: bool) -> Array:
         """(6, 6 B) of all axes; whole : in place of the angles' the angular velocities about the first frame's axes."""
         out = np.zeros((6, len(q) // 7, 6))
-        rates = np.eye(3) if whole else rates_of_angles(state[:3])
+        rates = np.eye(3) if whole else turned_frame.rates_of_angles(state[:3])
         for body, block in self.frame.turning(q):
             out[:3, body] += rates @ block
         out[3:, self.frame.second, :3] = self.size * np.eye(3)
@@ -199,13 +192,13 @@ def _balls(machine: MachineRecord, motion: MotionEquations, q: Array) -> Iterato
         one, two = bodies[::-1] if turned else bodies
         one = -1 if one >= ground else one
         marker = first + 1 if turned else first
-        yield _handle(motion, joint.name, one, two, markers.frame_b[marker].copy(), q, ANGLES)
+        yield _handle(motion, joint.name, one, two, markers.frame_b[marker].copy(), q, turned_frame.ANGLES)
 
 
 def _bodies(motion: MotionEquations, q: Array) -> Iterator[FrameHandle]:
     system = motion.system
     for body, name in enumerate(system.bodies):
-        axes = SHIFTS if system.point_masses[body] else (*SHIFTS, *ANGLES)
+        axes = turned_frame.SHIFTS if system.point_masses[body] else (*turned_frame.SHIFTS, *turned_frame.ANGLES)
         yield _handle(motion, name, -1, body, np.eye(3), q, axes)
 
 
@@ -213,6 +206,6 @@ def _handle(
     motion: MotionEquations, name: str, first: int, second: int, first_axes: Array, q: Array, axes: tuple[int, ...]
 ) -> FrameHandle:
     """With all angles zero at positions q."""
-    unturned = TurnedFrame(name, first, second, first_axes, np.eye(3))
-    frame = TurnedFrame(name, first, second, first_axes, unturned.turn(q).T)
+    unturned = turned_frame.TurnedFrame(name, first, second, first_axes, np.eye(3))
+    frame = turned_frame.TurnedFrame(name, first, second, first_axes, unturned.turn(q).T)
     return FrameHandle(frame, axes, motion.system.size)

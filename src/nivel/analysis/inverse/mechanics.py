@@ -17,15 +17,7 @@ from typing import Any, Final
 import numpy as np
 from scipy.linalg import lapack
 
-from nivel.analysis.assembly.instant import (
-    NOTHING,
-    Instant,
-    Lanes,
-    frame_axes,
-    frame_place,
-    point_acceleration,
-    point_velocity,
-)
+from nivel.analysis.assembly import instant
 from nivel.analysis.inverse.quick import Quick, UnsuitedError
 from nivel.analysis.linearise.ports import Catalogue
 from nivel.analysis.linearise.reduction import Ports, Reduction, velocity_names
@@ -56,7 +48,7 @@ class Mechanics:
 
     def __init__(self, machine: MachineRecord, moment: Moment, left_out: tuple[str, ...] = ()) -> None:
         self._machine, self._moment, self.left_out = machine, moment, left_out
-        self._instant = Instant(moment.motion, 0.0, moment.y)
+        self._instant = instant.Instant(moment.motion, 0.0, moment.y)
         reduction = self._reduction()
         self._selected = reduction.selected
         named = velocity_names(self._instant.system)
@@ -262,7 +254,7 @@ class Mechanics:
                 except UnsuitedError:
                     pass
             reduction = self._at(q, None)
-            rates = self._instant.along("v", lambda own: point_velocity(_measured(own), b, position)).seen
+            rates = self._instant.along("v", lambda own: instant.point_velocity(_measured(own), b, position)).seen
             return rates @ reduction.Z * self._velocity_signs
 
         return self._for_each(at, q)
@@ -271,7 +263,7 @@ class Mechanics:
         """(6,) acceleration and angular acceleration (global axes) of a marker or body for a = 0."""
         b, position = self._point(point)
         self._at(q, v)
-        return self._instant.read(lambda own: point_acceleration(_measured(own), b, position))
+        return self._instant.read(lambda own: instant.point_acceleration(_measured(own), b, position))
 
     def pose(self, point: str, q: Array | None = None) -> tuple[Array, Array]:
         """Place (3,) [m] and axes (3, 3) (columns) of a marker or the frame of a body at positions q, which are closed."""
@@ -281,9 +273,9 @@ class Mechanics:
         y[: own.positions] = self._in_tree(self.start if q is None else q)
         own.move_to(0.0, y, np.zeros(own.n))
         own.value()
-        axes = frame_axes(own, b)[..., 0]
+        axes = instant.frame_axes(own, b)[..., 0]
         marker = self._machine.marker_named.get(point)
-        place = frame_place(own, b)[..., 0] + axes @ position
+        place = instant.frame_place(own, b)[..., 0] + axes @ position
         return place, axes if marker is None else axes @ marker_frame(marker)[1]
 
     @property
@@ -332,16 +324,16 @@ class Mechanics:
         return out
 
 
-def _measured(own: Instant) -> Instant:
+def _measured(own: instant.Instant) -> instant.Instant:
     own.place_markers()
     return own
 
 
-def _nothing(_: Instant) -> Lanes:
-    return np.zeros((0, len(NOTHING)))
+def _nothing(_: instant.Instant) -> instant.Lanes:
+    return np.zeros((0, len(instant.NOTHING)))
 
 
-def _normalised(own: Instant, q: Array) -> Array:
+def _normalised(own: instant.Instant, q: Array) -> Array:
     """q with Euler parameters of unit length."""
     out = q.copy()
     for place, axis in own.place.tolist():
@@ -350,7 +342,7 @@ def _normalised(own: Instant, q: Array) -> Array:
     return out
 
 
-def _position_names(own: Instant, names: list[str]) -> tuple[str, ...]:
+def _position_names(own: instant.Instant, names: list[str]) -> tuple[str, ...]:
     """Of every position: that of its velocity, and four parameters of every turn in space."""
     out = [""] * own.positions
     for j, (place, axis) in enumerate(own.place.tolist()):

@@ -4,16 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from nivel.analysis.plan.choice import (
-    FOR_STIFF,
-    choose_coordinates,
-    choose_cut,
-    integrators_for,
-    names_no_integrator,
-    slides,
-    with_dividing_step,
-    with_integrator,
-)
+from nivel.analysis.plan import choice
 from nivel.analysis.plan.combinations import refuse_combinations
 from nivel.analysis.plan.modal_stiffness import integrator_of
 from nivel.analysis.plan.settings import RunSettings, complete
@@ -21,16 +12,7 @@ from nivel.errors import Fault, ModelError, refuse
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.stabilise import STABILISATIONS, Stabilisation
-from nivel.judge.before.refusals import (
-    conserved_drivers,
-    flexible_lagrange,
-    friction_at_jumps,
-    rolling_by_positions,
-    rough_motions,
-    samples_between_steps,
-    shared_mass,
-    stiction_over_steps,
-)
+from nivel.judge.before import refusals
 from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
@@ -143,12 +125,12 @@ def plan_run(machine: MachineRecord, given: Collection[str] = (), *, stepwise: b
     stepwise : steps of one length are needed, as of a machine that is stepped or that goes into another program.
     Raises ModelError with everything that does not go together.
     """
-    if not names_no_integrator(machine) or (stepwise and not machine.hydraulics):
-        return replace(_planned(machine, given), is_open=names_no_integrator(machine))
+    if not choice.names_no_integrator(machine) or (stepwise and not machine.hydraulics):
+        return replace(_planned(machine, given), is_open=choice.names_no_integrator(machine))
     refused: list[ModelError] = []
-    for name, reason in integrators_for(machine):
+    for name, reason in choice.integrators_for(machine):
         try:
-            plan = _planned(with_integrator(machine, name), given)
+            plan = _planned(choice.with_integrator(machine, name), given)
         except ModelError as error:
             refused.append(error)
             continue
@@ -160,7 +142,7 @@ def other_run(plan: Plan, name: str, **changes: float) -> Plan | None:
     """The run of a plan whose machine names no integrator, with this one and other changes of its settings; None where that does not go."""
     assert plan.asked is not None
     try:
-        new = _planned(with_integrator(plan.asked, name, **changes), ())
+        new = _planned(choice.with_integrator(plan.asked, name, **changes), ())
     except ModelError:
         return None
     return replace(with_stiff(new), is_open=True, reason=plan.reason, asked=plan.asked)
@@ -169,7 +151,7 @@ def other_run(plan: Plan, name: str, **changes: float) -> Plan | None:
 def with_stiff(plan: Plan) -> Plan:
     """The plan whose explicit integrator is followed by an implicit one where stability bounds its steps, where that goes."""
     methods, settings = plan.methods, plan.settings
-    machine = with_integrator(plan.machine, FOR_STIFF)
+    machine = choice.with_integrator(plan.machine, choice.FOR_STIFF)
     if methods.integrator.name != "dopri5" or _faults_of(machine, settings.coordinates):
         return plan
     other = with_nodes(machine)
@@ -179,8 +161,8 @@ def with_stiff(plan: Plan) -> Plan:
 
 def _planned(machine: MachineRecord, given: Collection[str]) -> Plan:
     """The run of a machine with the integrator that it has."""
-    machine = with_dividing_step(machine)
-    coordinates = choose_coordinates(machine)
+    machine = choice.with_dividing_step(machine)
+    coordinates = choice.choose_coordinates(machine)
     refuse([*unused_settings(given, machine.simulation, coordinates), *_faults_of(machine, coordinates)])
     methods = methods_of(machine, machine.simulation.formulation, coordinates)
     return Plan(machine, complete(machine.simulation, coordinates), methods)
@@ -191,18 +173,18 @@ def _faults_of(machine: MachineRecord, coordinates: str) -> list[Fault]:
     formulation = machine.simulation.formulation
     try:
         settings = complete(machine.simulation, coordinates)
-        faults = [*samples_between_steps(machine, settings.step)] if settings.steps > 0 else []
+        faults = [*refusals.samples_between_steps(machine, settings.step)] if settings.steps > 0 else []
     except ModelError as error:
         faults = [*error.faults]
     return [
         *faults,
-        *shared_mass(machine, formulation, coordinates),
-        *flexible_lagrange(machine, formulation),
-        *conserved_drivers(machine),
-        *stiction_over_steps(machine),
-        *rough_motions(machine),
-        *rolling_by_positions(machine, coordinates),
-        *friction_at_jumps(machine),
+        *refusals.shared_mass(machine, formulation, coordinates),
+        *refusals.flexible_lagrange(machine, formulation),
+        *refusals.conserved_drivers(machine),
+        *refusals.stiction_over_steps(machine),
+        *refusals.rough_motions(machine),
+        *refusals.rolling_by_positions(machine, coordinates),
+        *refusals.friction_at_jumps(machine),
     ]
 
 
@@ -212,10 +194,10 @@ def methods_of(machine: MachineRecord, formulation: str = "newton-euler", coordi
     Raises ModelError where they do not go together.
     """
     machine = with_nodes(machine)
-    refuse(shared_mass(machine, formulation, coordinates))
-    refuse(flexible_lagrange(machine, formulation))
-    simulation, cut = machine.simulation, choose_cut(machine)
-    sliding = slides(machine, coordinates, formulation, cut)
+    refuse(refusals.shared_mass(machine, formulation, coordinates))
+    refuse(refusals.flexible_lagrange(machine, formulation))
+    simulation, cut = machine.simulation, choice.choose_cut(machine)
+    sliding = choice.slides(machine, coordinates, formulation, cut)
     kinds = {"flexible": machine.is_flexible, "shared": machine.shares_mass, "sliding": sliding}
     path = path_of(coordinates, formulation, simulation.rotations, **kinds)
     if path is None:

@@ -18,18 +18,11 @@ from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.memory import in_one_piece
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.preparation.shared_loads import SharedLoads, are_open
+from nivel.analysis.run import prepared_state
 from nivel.analysis.run.dynamics import BEFORE_A_JAM, Loop, failure_of, jam_of, start_loop, taken_events
 from nivel.analysis.run.fitting import fitted
 from nivel.analysis.run.narrow_features import remembered
 from nivel.analysis.run.placing import Placing
-from nivel.analysis.run.prepared_state import (
-    BoundEntry,
-    Structure,
-    carry_over,
-    prepare,
-    refuse_other_structure,
-    structure_of,
-)
 from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.files.target import written
 from nivel.files.writer import write_machine
@@ -74,7 +67,7 @@ class Snapshot:
     machine: str = field(repr=False)
     arrays: tuple[NDArray[Any], ...] = field(repr=False)
     units: tuple[bytes, ...] = field(default=(), repr=False)
-    structure: Structure = field(default_factory=dict, repr=False)
+    structure: prepared_state.Structure = field(default_factory=dict, repr=False)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write it to a file (NumPy's `.npz`); an existing file is replaced. Raises ModelError where it cannot be written."""
@@ -111,7 +104,7 @@ class Simulation:
     ) -> None:
         """ready : the plan with its integrator, and the machine made ready, where that is done already."""
         refuse_chosen_steps(plan)
-        plan, prepared = ready or fitted(plan, prepare(plan.methods))
+        plan, prepared = ready or fitted(plan, prepared_state.prepare(plan.methods))
         self._plan, self._settings = plan, plan.settings
         self._prepared: Prepared
         self._prepared, piece = prepared.in_one_piece()
@@ -119,7 +112,7 @@ class Simulation:
         self._system = system = motion.system
         loop, own = _endless(self._prepared, plan, whole=piece is not None)
         self._run: Run = loop.history.record
-        self._advance = BoundEntry(advance, loop.addresses, keep=loop)
+        self._advance = prepared_state.BoundEntry(advance, loop.addresses, keep=loop)
         self._correct = loop.correct
         kept = remembered(self._run, motion) if piece is None or own is None else [piece, own]
         # what is remembered of units but their own memory
@@ -148,8 +141,10 @@ class Simulation:
         self._header = Header(layout, run_attributes(plan.machine, source, self._prepared, plan.settings, plan.reason))
         self._frame = np.zeros((1, layout.width))
         address = int(motion.handle.address)
-        self._evaluate = BoundEntry(motion.kernels.evaluate, (address, self._run.y, self._run.rate), keep=motion)
-        self._write = BoundEntry(observe, (address, self._run.y, self._frame[0]), keep=motion)
+        self._evaluate = prepared_state.BoundEntry(
+            motion.kernels.evaluate, (address, self._run.y, self._run.rate), keep=motion
+        )
+        self._write = prepared_state.BoundEntry(observe, (address, self._run.y, self._frame[0]), keep=motion)
         self._numbers: Any = self._frame[0].data
         self._places: dict[str, int] = {}  # of single numbers in the frame
         self._observed = -np.inf
@@ -471,7 +466,7 @@ class Simulation:
         mine, given = self._kept, state.arrays
         fits = len(mine) == len(given) and all(a.shape == b.shape for a, b in zip(mine, given, strict=True))
         if state.machine != self._digest or not fits:
-            refuse_other_structure(self._structure, state.structure)
+            prepared_state.refuse_other_structure(self._structure, state.structure)
             if not fits:
                 raise ModelError("the state is of another machine, or of other settings of the simulation")
             self._take_over(state)
@@ -496,7 +491,7 @@ class Simulation:
         before = self.state
         if self._recorded:
             self._memory.forget_after(state.time)
-        carry_over(self._kept, state.arrays, self._prepared, self._run)
+        prepared_state.carry_over(self._kept, state.arrays, self._prepared, self._run)
         for unit, content in zip(self._system.units, state.units, strict=True):
             unit.restore(content)
         self._events = [event for event in self._events if event.time <= state.time]
@@ -531,8 +526,8 @@ class Simulation:
         raise ModelError(f"{message}; give states to machines whose lengths differ less")
 
     @cached_property
-    def _structure(self) -> Structure:
-        return structure_of(self._plan, self._prepared)
+    def _structure(self) -> prepared_state.Structure:
+        return prepared_state.structure_of(self._plan, self._prepared)
 
     def copy(self) -> Simulation:
         """Another one at this moment, which goes on by itself; what was recorded stays with this one."""

@@ -7,16 +7,8 @@ from typing import Any
 import numpy as np
 from scipy.linalg import eig, eigh
 
+from nivel.analysis.statics import linear
 from nivel.analysis.statics.equations import Tangent
-from nivel.analysis.statics.linear import (
-    PivotError,
-    fastest,
-    has_potential,
-    is_small,
-    lowest,
-    saddle_factors,
-    symmetric,
-)
 from nivel.lazy import dataclass, scipy
 from nivel.system.system import Array
 
@@ -46,10 +38,10 @@ class Vibrations:
 
 def vibrations(tangent: Tangent, count: int) -> Vibrations:
     """The `count` lowest vibrations about the equilibrium of a tangent."""
-    squares, shapes = lowest(tangent, count, tangent.M)
+    squares, shapes = linear.lowest(tangent, count, tangent.M)
     known = np.einsum("ik,ik->k", np.abs(shapes), np.abs(tangent.K) @ np.abs(shapes))
-    still = (np.abs(squares) <= ROUND_OFF * known) | (np.abs(squares) <= NONE * fastest(tangent))
-    if not has_potential(tangent):
+    still = (np.abs(squares) <= ROUND_OFF * known) | (np.abs(squares) <= NONE * linear.fastest(tangent))
+    if not linear.has_potential(tangent):
         still |= np.abs(squares) <= ROUND_OFF * _largest(tangent)
     squares = np.where(still, 0.0, squares)
     rates = np.full(count, np.nan, dtype=complex)
@@ -67,12 +59,12 @@ def _largest(tangent: Tangent) -> float:
     """Largest square of a frequency; of large machines its size."""
     if not tangent.K.shape[0]:
         return 0.0
-    if not is_small(tangent):
-        return fastest(tangent)
+    if not linear.is_small(tangent):
+        return linear.fastest(tangent)
     Z = tangent.free_directions
     if not Z.shape[1]:
         return 0.0
-    values = eigh(symmetric(Z.T @ (tangent.K @ Z)), symmetric(Z.T @ (tangent.M @ Z)), eigvals_only=True)
+    values = eigh(linear.symmetric(Z.T @ (tangent.K @ Z)), linear.symmetric(Z.T @ (tangent.M @ Z)), eigvals_only=True)
     return float(np.max(np.abs(values)))
 
 
@@ -97,17 +89,17 @@ def buckling_factors(before: Tangent, after: Tangent, count: int) -> tuple[Array
     before, after : tangents K₀, K₁ at two loads; constraints as before. Raises PivotError where K₀ itself has no stiffness somewhere.
     """
     size, rows = before.K.shape[0], before.C.shape[0]
-    K0, dK = symmetric(before.K), symmetric(after.K - before.K)
-    if is_small(before, count):
+    K0, dK = linear.symmetric(before.K), linear.symmetric(after.K - before.K)
+    if linear.is_small(before, count):
         Z = before.free_directions
         if not Z.shape[1]:
             return np.zeros(0), np.zeros((size, 0))
         try:
-            values, vectors = eigh(symmetric(-(Z.T @ (dK @ Z))), symmetric(Z.T @ (K0 @ Z)))
+            values, vectors = eigh(linear.symmetric(-(Z.T @ (dK @ Z))), linear.symmetric(Z.T @ (K0 @ Z)))
         except np.linalg.LinAlgError:
-            raise PivotError from None
+            raise linear.PivotError from None
         return _positive(values, Z @ vectors, count)
-    found = saddle_factors(before)
+    found = linear.saddle_factors(before)
 
     def inverse(b: Array) -> Array:
         return found.solve(np.concatenate([np.ravel(b), np.zeros(rows)]))[:size]

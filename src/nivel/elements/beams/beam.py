@@ -9,15 +9,8 @@ from typing import Annotated, Any, ClassVar, Final, Literal
 import numpy as np
 from pydantic import BeforeValidator, model_validator
 
+from nivel.elements.beams import sections
 from nivel.elements.beams.line import Line, NoCurveError, arc, axes_along, smooth, straight
-from nivel.elements.beams.sections import (
-    BeamSection,
-    BeamSectionRecord,
-    GeneralSection,
-    Material,
-    beam_section,
-    missing_shear_areas,
-)
 from nivel.machine.core.axes import no_direction
 from nivel.machine.core.checked import Checked, Place, Problem, superfluous
 from nivel.machine.core.record import GROUND, Name
@@ -72,8 +65,8 @@ class Beam(Checked):
     twist: Angle = Field(
         default=0.0, description="turn of the last section about the beam, against the first, unstressed"
     )
-    section: OneRecord[BeamSectionRecord]
-    material: Maybe[OneRecord[Material]] = Field(default=None)
+    section: OneRecord[sections.BeamSectionRecord]
+    material: Maybe[OneRecord[sections.Material]] = Field(default=None)
     centroid: Offset = Field(
         default=(0.0, 0.0), description="y and z of the sections' centroids from the line of the beam"
     )
@@ -162,12 +155,12 @@ class Beam(Checked):
     @property
     def _missing_shear_areas(self) -> tuple[str, ...]:
         """Those that the section lacks; a cable does not shear."""
-        return () if self.model == "ancf-cable" else missing_shear_areas(self.section)
+        return () if self.model == "ancf-cable" else sections.missing_shear_areas(self.section)
 
     @property
-    def properties(self) -> BeamSection:
+    def properties(self) -> sections.BeamSection:
         """The section in numbers."""
-        return beam_section(self.section, self.material, self.centroid, self.shear_centre)
+        return sections.beam_section(self.section, self.material, self.centroid, self.shear_centre)
 
     def problems(self) -> Iterator[Problem]:
         if self.name == GROUND:
@@ -212,7 +205,7 @@ class Beam(Checked):
 
     def _problems_of_height(self) -> Iterator[Problem]:
         """A section of a material that is higher than the beam is long, as a rectangle of its stiffness."""
-        if self.material is None or isinstance(self.section, GeneralSection) or self._missing_shear_areas:
+        if self.material is None or isinstance(self.section, sections.GeneralSection) or self._missing_shear_areas:
             return
         stiffness, mass = np.diag(self.properties.stiffness), self.properties.mass
         height = float(
@@ -238,7 +231,7 @@ class Beam(Checked):
             yield Problem(("elements",) if "elements" in self.model_fields_set else (), message)
 
     def _problems_of_section(self) -> Iterator[Problem]:
-        if isinstance(self.section, GeneralSection):
+        if isinstance(self.section, sections.GeneralSection):
             if self.material is not None:
                 yield superfluous(
                     "material", "does not belong to a general section, which has its own stiffness and mass"
@@ -263,7 +256,7 @@ class Beam(Checked):
             yield Problem(("mass",), f"the mass of `model: {self.model}` is always consistent: remove it")
         if self.interpolation == "total":
             yield Problem(("interpolation",), f"`model: {self.model}` has no rotations to interpolate: remove it")
-        general = isinstance(self.section, GeneralSection)
+        general = isinstance(self.section, sections.GeneralSection)
         if self._missing_shear_areas or (self.material is None) != general:
             return
         if self.model == "ancf-cable":

@@ -8,22 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator
 
-from nivel.elements.circuits import ranges
+from nivel.elements.circuits import ranges, spools
 from nivel.elements.circuits.component import Component, problem_of_share
 from nivel.elements.circuits.curves import Curve
 from nivel.elements.circuits.edges import MOST_EDGES, Edge, meter
 from nivel.elements.circuits.kind import ComponentKind
-from nivel.elements.circuits.spools import (
-    Dither,
-    Solenoid,
-    Switching,
-    add_drive,
-    add_switch,
-    drive,
-    full_force,
-    held_curve,
-    switch,
-)
 from nivel.elements.circuits.symbol import Symbol
 from nivel.elements.circuits.ways import spool
 from nivel.kernels.record.record import NONE
@@ -90,8 +79,8 @@ class SpoolValve(Component):
         description="of its `solenoid`, in place of `command`; negative: of the second one",
         usual=ranges.CURRENT,
     )
-    solenoid: Maybe[OneRecord[Solenoid]] = Field(default=None, description="with the springs of the spool")
-    switching: Maybe[OneRecord[Switching]] = Field(default=None, description="whether it is on or off alone")
+    solenoid: Maybe[OneRecord[spools.Solenoid]] = Field(default=None, description="with the springs of the spool")
+    switching: Maybe[OneRecord[spools.Switching]] = Field(default=None, description="whether it is on or off alone")
     stroke: Maybe[PositiveLength] = Field(
         default=None,
         description="from the middle to the full stroke, of notches and springs",
@@ -107,7 +96,7 @@ class SpoolValve(Component):
     hysteresis: NotNegativeNumber = Field(
         default=0.0, description="share of the full command between the curves up and down"
     )
-    dither: Maybe[OneRecord[Dither]] = Field(default=None)
+    dither: Maybe[OneRecord[spools.Dither]] = Field(default=None)
     transition: ranges.Drop = Field(default=0.5e5, description="difference of pressure below which the root is rounded")
 
     @classmethod
@@ -167,9 +156,9 @@ def _add_position(builder: SystemBuilder, component: SpoolValve) -> tuple[int, i
     position = builder.outputs.add((f"hydraulics.{name}.position", "1", f"position of {name}"))
     if component.switching is not None:
         assert component.command is not None  # the record was checked
-        add_switch(builder, name, position, component.command, component.switching, component.two_sided)
+        spools.add_switch(builder, name, position, component.command, component.switching, component.two_sided)
         return position, NONE
-    speed = add_drive(builder, component, position)
+    speed = spools.add_drive(builder, component, position)
     return position, speed if component.solenoid is not None and component.solenoid.flow_force else NONE
 
 
@@ -183,12 +172,12 @@ def _add_edge(builder: SystemBuilder, component: SpoolValve, pair: str, edge: Ed
     )
     density = builder.circuit.fluids[builder.circuit.nodes[component.ports[ports[0]]].fluid][4]
     drops, curves = conductances(component, edge, density)
-    tables = [held_curve(builder, curve) for curve in curves]
+    tables = [spools.held_curve(builder, curve) for curve in curves]
     force = 0.0
     if speed != NONE:
         builder.touch_state(speed)
         opens = -1.0 if opens_backwards(curves[0]) else 1.0
-        jet = math.sqrt(2.0 * density) * math.cos(edge.jet_angle) / full_force(component)
+        jet = math.sqrt(2.0 * density) * math.cos(edge.jet_angle) / spools.full_force(component)
         force = -opens * jet * (2.0 * math.pi * (component.frequency or 0.0)) ** 2
     numbers = [component.transition, edge.leakage, force, *drops]
     builder.elements.add(meter, [output, a, b, position, speed, *tables], numbers)
@@ -223,7 +212,7 @@ def closed_until(component: SpoolValve) -> float:
     return min(ends, default=0.0)
 
 
-OF_VALVES = (drive, switch, meter)
+OF_VALVES = (spools.drive, spools.switch, meter)
 
 
 def spool_valve(data: Mapping[str, Any]) -> Symbol:

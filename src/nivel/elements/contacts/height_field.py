@@ -15,6 +15,7 @@ from nivel.machine.bodies.surface import Triangles
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.given import Field, ManyRows, Maybe, TwoNumbers
 from nivel.machine.laws.time_function import check_varying
+from nivel.machine.units import tree
 from nivel.machine.units.arithmetic import PLACE, evaluate, render
 from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import (
@@ -29,16 +30,6 @@ from nivel.machine.units.quantity import (
     parameters_of,
     reported,
     shown,
-)
-from nivel.machine.units.tree import (
-    ExpressionError,
-    FaultyParameterError,
-    Node,
-    Parameters,
-    Time,
-    UnknownNameError,
-    leaves,
-    varies,
 )
 
 FEWEST, MOST = 3, 250_000  # heights along a side, and in all
@@ -56,28 +47,28 @@ def _of_place(value: Any, info: ValidationInfo) -> str | None:
     text, parameters = str(value).strip(), parameters_of(info)
     try:
         return render(_height(text, parameters))
-    except ExpressionError as problem:
+    except tree.ExpressionError as problem:
         raise expression_fault(problem, value, parameters) from None
-    except FaultyParameterError:
+    except tree.FaultyParameterError:
         raise reported() from None
 
 
-def _height(text: str, parameters: Parameters) -> Node:
+def _height(text: str, parameters: tree.Parameters) -> tree.Node:
     """`text` as a length that varies with x and y only. Raises ExpressionError, of another name or a unit in their place with them."""
     try:
-        tree = bound_tree(text, parameters, PLACE)
-    except UnknownNameError as problem:
-        raise ExpressionError(f"{problem}; {NAMES}") from None
-    if any(isinstance(each, Time) for each in leaves(tree)):
-        raise ExpressionError(f"ground does not change with the time; {NAMES}")
-    if varies(tree):
-        check_varying(tree, text, "length", parameters, PLACE)
-        return tree
+        root = bound_tree(text, parameters, PLACE)
+    except tree.UnknownNameError as problem:
+        raise tree.ExpressionError(f"{problem}; {NAMES}") from None
+    if any(isinstance(each, tree.Time) for each in tree.leaves(root)):
+        raise tree.ExpressionError(f"ground does not change with the time; {NAMES}")
+    if tree.varies(root):
+        check_varying(root, text, "length", parameters, PLACE)
+        return root
     try:
-        check_kind(text, measure(tree), "length")
-    except ExpressionError as problem:
-        raise ExpressionError(f"{problem}; {NAMES}") from None
-    return tree
+        check_kind(text, measure(root), "length")
+    except tree.ExpressionError as problem:
+        raise tree.ExpressionError(f"{problem}; {NAMES}") from None
+    return root
 
 
 class HeightField(Checked):
@@ -147,7 +138,7 @@ class HeightField(Checked):
             return
         try:
             self.heights  # noqa: B018 : whether the function has a value everywhere
-        except ExpressionError as problem:
+        except tree.ExpressionError as problem:
             yield Problem(("function",), f"`{self.function}` has no value everywhere on the rectangle: {problem}")
 
     @property
@@ -203,9 +194,9 @@ def _rough(grade: str, seed: int, size: tuple[float, float], shape: tuple[int, i
 
 @lru_cache(maxsize=16)
 def _values_of(function: str, size: tuple[float, float], points: tuple[int, int]) -> NDArray[np.float64]:
-    tree = bound_tree(function, {}, PLACE)
+    root = bound_tree(function, {}, PLACE)
     x, y = (np.linspace(-0.5, 0.5, n) * side for n, side in zip(points, size, strict=True))
-    out = np.array([[evaluate(tree, values={"x": float(a), "y": float(b)}) for a in x] for b in y])
+    out = np.array([[evaluate(root, values={"x": float(a), "y": float(b)}) for a in x] for b in y])
     out.setflags(write=False)
     return out
 

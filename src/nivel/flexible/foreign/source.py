@@ -12,14 +12,7 @@ import scipy.sparse as sp
 
 from nivel.errors import Fault, ModelError, refuse
 from nivel.flexible.checks.checks import unsymmetric
-from nivel.flexible.foreign.calculix import (
-    blocks_of,
-    first_inverted,
-    incompatible_rows,
-    internal_nodes,
-    refuse_expanded,
-    rigid_rows,
-)
+from nivel.flexible.foreign import calculix
 from nivel.flexible.foreign.matrix import (
     FileMatrix,
     FormatError,
@@ -139,13 +132,13 @@ def matrix_model(located: Located) -> tuple[FiniteElementModel, NodeSets]:
     mesh = _opened(located, "nodes", given.nodes, read_mesh)
     shells: Expansion | None = None
     if given.format == "calculix" and mesh.shells:
-        _in_nodes(located, given, lambda: refuse_expanded(mesh))
+        _in_nodes(located, given, lambda: calculix.refuse_expanded(mesh))
         shells = _in_nodes(located, given, lambda: expansion(mesh))
     try:
         read = _matrices(located, given, mesh, shells)
     except ModelError:
         if given.format == "calculix":  # nodes of the solids in place of beams stand there many times
-            _in_nodes(located, given, lambda: refuse_expanded(mesh))
+            _in_nodes(located, given, lambda: calculix.refuse_expanded(mesh))
         raise
     if given.format == "calculix":
         read = _in_nodes(located, given, lambda: _of_calculix(read, mesh))
@@ -159,10 +152,10 @@ def matrix_model(located: Located) -> tuple[FiniteElementModel, NodeSets]:
 def _of_calculix(read: _Read, mesh: Mesh) -> _Read:
     """With the rotations of rigid groups as directions of their reference nodes. Raises FormatError."""
     if any(node > mesh.numbers[-1] for node, _ in read.labels):  # of the solids in place of shells
-        refuse_expanded(mesh)
-    labels = rigid_rows(read.labels, mesh)
+        calculix.refuse_expanded(mesh)
+    labels = calculix.rigid_rows(read.labels, mesh)
     stiffness, mass = (
-        FileMatrix(each.matrix, rigid_rows(each.labels or (), mesh)) for each in (read.stiffness, read.mass)
+        FileMatrix(each.matrix, calculix.rigid_rows(each.labels or (), mesh)) for each in (read.stiffness, read.mass)
     )
     return _Read(stiffness, mass, labels)
 
@@ -294,7 +287,7 @@ def _check_nodes(located: Located, mesh: Mesh, read: _Read, shells: Expansion | 
 def _inside(read: _Read, mesh: Mesh, shells: Expansion | None) -> set[int]:
     """Numbers of rows without a node: incompatible modes, and stretches of knots of shells."""
     stretches = set() if shells is None else {knot.stretch for knot in shells.knots.values()}
-    return internal_nodes(read.labels, mesh) | stretches
+    return calculix.internal_nodes(read.labels, mesh) | stretches
 
 
 def _model(
@@ -330,7 +323,7 @@ def _model(
         used, stands_for = [*used, *following.numbers], following.stands_for
     dropped = len(mesh.numbers) - len(used)
     notes = (f"{dropped} nodes of the mesh have no rows in the matrices and were left out",) if dropped else ()
-    incompatible = len(internal_nodes(read.labels, mesh))
+    incompatible = len(calculix.internal_nodes(read.labels, mesh))
     notes += (f"{incompatible} incompatible modes of elements C3D8I are rows without a node",) if incompatible else ()
     notes += mesh.notes if shells is None else (*mesh.notes, *shells.notes)
     sets = {
@@ -364,8 +357,8 @@ def _with_solids(
     if any(node not in place for kind in mesh.elements.values() for element in kind for node in element):
         blocks = {}
     else:
-        blocks = blocks_of(mesh, place, model.position, incompatible_rows(read.labels, mesh))
-    bad = first_inverted(blocks)
+        blocks = calculix.blocks_of(mesh, place, model.position, calculix.incompatible_rows(read.labels, mesh))
+    bad = calculix.first_inverted(blocks)
     if bad:
         raise ModelError(
             located.fault(("matrices", "nodes"), f"{bad}: their nodes are in another order, or a node was moved")

@@ -8,22 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.integrate.loop import run as of_run
 from nivel.integrate.loop.dense import inside
-from nivel.integrate.loop.run import (
-    AFTER,
-    BEFORE,
-    EVALUATIONS,
-    KNOWN,
-    LENGTH,
-    RATE_AFTER,
-    RATE_BEFORE,
-    REACHED,
-    SIDE,
-    TIME,
-    TO,
-    WHEN,
-    run_at,
-)
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import EVENT_NOT_FINITE, OK
@@ -60,7 +46,7 @@ def value_of(watched, k):
 @leaf
 def read_values(machine, history, row, t):
     """Row BEFORE or AFTER := the values watched in the state last evaluated, and their rates. Returns a status."""
-    run, watched = run_at(history), record_at(machine).watched
+    run, watched = of_run.run_at(history), record_at(machine).watched
     call_hook(machine, WATCH, 0, t)
     for k in range(run.event_values.shape[1]):
         value = value_of(watched, k)
@@ -68,7 +54,7 @@ def read_values(machine, history, row, t):
             record_at(machine).control.failure[0] = k
             return EVENT_NOT_FINITE
         run.event_values[row, k] = value
-        run.event_values[RATE_BEFORE if row == BEFORE else RATE_AFTER, k] = watched.rate[k]
+        run.event_values[of_run.RATE_BEFORE if row == of_run.BEFORE else of_run.RATE_AFTER, k] = watched.rate[k]
     return OK
 
 
@@ -83,24 +69,24 @@ def side_of(value, k, events):
 @leaf
 def probe(evaluate, correct, machine, history, theta):
     """trial := the state at the share θ of the last step, corrected and evaluated. Returns a status."""
-    run = run_at(history)
-    t = run.clock[TIME] + theta * run.clock[LENGTH]
+    run = of_run.run_at(history)
+    t = run.clock[of_run.TIME] + theta * run.clock[of_run.LENGTH]
     inside(run, theta, run.trial)
     status = call_correct(correct, machine, t, run.trial)
     if status != OK:
         return status
-    run.counter[EVALUATIONS] += 1
-    run.counter[KNOWN] = 0
+    run.counter[of_run.EVALUATIONS] += 1
+    run.counter[of_run.KNOWN] = 0
     return call_evaluate(evaluate, machine, t, run.trial, run.scratch)
 
 
 @leaf
 def value_at(evaluate, correct, machine, history, k, theta):
     """(status, value k) at the share θ of the last step."""
-    run, watched = run_at(history), record_at(machine).watched
+    run, watched = of_run.run_at(history), record_at(machine).watched
     status = probe(evaluate, correct, machine, history, theta)
     if status == OK:
-        call_hook(machine, WATCH, 0, run.clock[TIME] + theta * run.clock[LENGTH])
+        call_hook(machine, WATCH, 0, run.clock[of_run.TIME] + theta * run.clock[of_run.LENGTH])
         if not np.abs(value_of(watched, k)) < np.inf:
             record_at(machine).control.failure[0] = k
             status = EVENT_NOT_FINITE
@@ -110,11 +96,11 @@ def value_at(evaluate, correct, machine, history, k, theta):
 @leaf
 def locate(evaluate, correct, machine, history, k, high, above):
     """(status, θ) where value k, which has the value `above` on its other side at θ = high, changes to it."""
-    values, events = run_at(history).event_values, record_at(machine).watched.event.shape[0]
-    below = values[BEFORE, k]
+    values, events = of_run.run_at(history).event_values, record_at(machine).watched.event.shape[0]
+    below = values[of_run.BEFORE, k]
     if below == 0.0 and k < events:
         return OK, 0.0
-    return locate_between(evaluate, correct, machine, history, k, values[SIDE, k], 0.0, below, high, above)
+    return locate_between(evaluate, correct, machine, history, k, values[of_run.SIDE, k], 0.0, below, high, above)
 
 
 @leaf
@@ -124,11 +110,11 @@ def locate_between(evaluate, correct, machine, history, k, side, low, below, hig
     Regula falsi in the Illinois form (Dowell & Jarratt 1971), bisection where that is slow. No state is looked at nearer to an end of
     the bracket than half the tolerance, so the bracket closes when the estimate no longer moves. θ is its upper end: on the other side.
     """
-    run = run_at(history)
+    run = of_run.run_at(history)
     events, clock = record_at(machine).watched.event.shape[0], run.clock
     if below * side <= 0.0:
         below = side * UNKNOWN
-    tolerance = max(SHARE, ROUND_OFF * np.abs(clock[REACHED]) / clock[LENGTH])
+    tolerance = max(SHARE, ROUND_OFF * np.abs(clock[of_run.REACHED]) / clock[of_run.LENGTH])
     last, width, slow = side, high - low, 0
     while high - low > tolerance:
         theta = 0.5 * (low + high)
@@ -178,14 +164,14 @@ def find_crossings(evaluate, correct, machine, history, first, last, high):
 
     Returns a status.
     """
-    run, watched = run_at(history), record_at(machine).watched
+    run, watched = of_run.run_at(history), record_at(machine).watched
     values, events = run.event_values, watched.event.shape[0]
     for k in range(first, last):
-        side, now = values[SIDE, k], side_of(values[AFTER, k], k, events)
+        side, now = values[of_run.SIDE, k], side_of(values[of_run.AFTER, k], k, events)
         if side * now >= 0.0 or (k < events and not is_wanted(watched.event[k, DIRECTION], now)):
             continue
-        values[TO, k] = now if k < events else values[TO, k]
-        status, values[WHEN, k] = locate(evaluate, correct, machine, history, k, high, values[AFTER, k])
+        values[of_run.TO, k] = now if k < events else values[of_run.TO, k]
+        status, values[of_run.WHEN, k] = locate(evaluate, correct, machine, history, k, high, values[of_run.AFTER, k])
         if status != OK:
             return status
     return OK
@@ -194,12 +180,12 @@ def find_crossings(evaluate, correct, machine, history, first, last, high):
 @leaf
 def end_at(evaluate, correct, machine, history, theta):
     """The state reached := that at the share θ of the step, with row AFTER. Returns a status."""
-    run = run_at(history)
+    run = of_run.run_at(history)
     status = probe(evaluate, correct, machine, history, theta)
     if status != OK:
         return status
-    run.clock[REACHED] = run.clock[TIME] + theta * run.clock[LENGTH]
+    run.clock[of_run.REACHED] = run.clock[of_run.TIME] + theta * run.clock[of_run.LENGTH]
     for i in range(run.y.shape[0]):
         run.y[i] = run.trial[i]
-    run.counter[KNOWN] = 1
-    return read_values(machine, history, AFTER, run.clock[REACHED])
+    run.counter[of_run.KNOWN] = 1
+    return read_values(machine, history, of_run.AFTER, run.clock[of_run.REACHED])

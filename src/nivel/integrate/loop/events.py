@@ -7,29 +7,10 @@ whatever changes the state afterwards by round-off (corrections, energies).
 
 from __future__ import annotations
 
+from nivel.integrate.loop import run as of_run
 from nivel.integrate.loop.crossing import NEVER, end_at, find_crossings, is_mark, read_values, side_of
 from nivel.integrate.loop.dense import cubic
 from nivel.integrate.loop.passes import find_passes
-from nivel.integrate.loop.run import (
-    AFTER,
-    ALL_STEPS,
-    BEFORE,
-    DENSE,
-    EVALUATIONS,
-    EVENTS,
-    KNOWN,
-    LENGTH,
-    RATE_AFTER,
-    RATE_BEFORE,
-    REACHED,
-    SIDE,
-    STOPPED,
-    TIME,
-    TO,
-    TWICE,
-    WHEN,
-    run_at,
-)
 from nivel.integrate.loop.samples import ends_at_switches
 from nivel.integrate.loop.surfaces import find_contacts
 from nivel.integrate.loop.switches import first_switch, has_switches, note_slopes, pass_unseen
@@ -42,12 +23,12 @@ from nivel.native.function import leaf
 @leaf
 def begin_events(machine, history):
     """The sides at the start of a run, in the state just evaluated. Returns a status."""
-    run, values = run_at(history), run_at(history).event_values
+    run, values = of_run.run_at(history), of_run.run_at(history).event_values
     events = record_at(machine).watched.event.shape[0]
-    status = read_values(machine, history, BEFORE, run.clock[TIME])
-    values[WHEN, :] = NEVER
+    status = read_values(machine, history, of_run.BEFORE, run.clock[of_run.TIME])
+    values[of_run.WHEN, :] = NEVER
     for k in range(min(values.shape[1], first_switch(machine))):
-        values[SIDE, k] = side_of(values[BEFORE, k], k, events)
+        values[of_run.SIDE, k] = side_of(values[of_run.BEFORE, k], k, events)
     return status
 
 
@@ -70,19 +51,19 @@ def find_events(evaluate, correct, machine, history):
 
     Returns a status. With counter[KNOWN] the state reached is evaluated already, its rate is run.scratch.
     """
-    run, watched = run_at(history), record_at(machine).watched
+    run, watched = of_run.run_at(history), record_at(machine).watched
     values, clock, counter = run.event_values, run.clock, run.counter
     events, count = watched.event.shape[0], run.event_values.shape[1]
-    status = call_evaluate(evaluate, machine, clock[REACHED], run.y, run.scratch)
-    counter[EVALUATIONS] += 1
-    counter[KNOWN] = 1
+    status = call_evaluate(evaluate, machine, clock[of_run.REACHED], run.y, run.scratch)
+    counter[of_run.EVALUATIONS] += 1
+    counter[of_run.KNOWN] = 1
     if status == OK:
-        status = read_values(machine, history, AFTER, clock[REACHED])
+        status = read_values(machine, history, of_run.AFTER, clock[of_run.REACHED])
     if status != OK:
         return status
-    if counter[DENSE] == 0:
+    if counter[of_run.DENSE] == 0:
         cubic(run, run.rate, run.scratch)
-    values[WHEN, :] = NEVER
+    values[of_run.WHEN, :] = NEVER
     if has_switches(machine, run):
         pass_unseen(evaluate, machine, history)
     status, end = find_contacts(evaluate, correct, machine, history, events)
@@ -90,35 +71,35 @@ def find_events(evaluate, correct, machine, history):
         status = find_crossings(evaluate, correct, machine, history, 0, events, end)
     if status == OK and events > 0:
         status = find_passes(evaluate, correct, machine, history, end)
-    stop = first_stop(watched, values[WHEN], counter[ALL_STEPS] > 0 and not ends_at_switches(run))
+    stop = first_stop(watched, values[of_run.WHEN], counter[of_run.ALL_STEPS] > 0 and not ends_at_switches(run))
     if status == OK and stop >= 0:
-        end = values[WHEN, stop]
+        end = values[of_run.WHEN, stop]
         status = end_at(evaluate, correct, machine, history, end)
         if watched.event[stop, STOP] == ENDS_RUN:
-            counter[STOPPED] = stop + 1
+            counter[of_run.STOPPED] = stop + 1
     note_slopes(run)
     for k in range(count):
-        now = side_of(values[AFTER, k], k, events)
+        now = side_of(values[of_run.AFTER, k], k, events)
         if k >= events:
-            values[SIDE, k] = now if k < first_switch(machine) else values[SIDE, k]
-        elif values[WHEN, k] <= end:
-            values[SIDE, k] = now if values[TWICE, k] == 1.0 and now != 0.0 else -values[SIDE, k]
+            values[of_run.SIDE, k] = now if k < first_switch(machine) else values[of_run.SIDE, k]
+        elif values[of_run.WHEN, k] <= end:
+            values[of_run.SIDE, k] = now if values[of_run.TWICE, k] == 1.0 and now != 0.0 else -values[of_run.SIDE, k]
             if is_mark(watched, k):
-                values[WHEN, k] = NEVER
+                values[of_run.WHEN, k] = NEVER
             else:
                 record_at(machine).sampled.came[k] = 1
         else:
-            values[WHEN, k] = NEVER
-            values[SIDE, k] = now if now != 0.0 else values[SIDE, k]
-        values[BEFORE, k], values[RATE_BEFORE, k] = values[AFTER, k], values[RATE_AFTER, k]
+            values[of_run.WHEN, k] = NEVER
+            values[of_run.SIDE, k] = now if now != 0.0 else values[of_run.SIDE, k]
+        values[of_run.BEFORE, k], values[of_run.RATE_BEFORE, k] = values[of_run.AFTER, k], values[of_run.RATE_AFTER, k]
     return status
 
 
 @leaf
 def hand_out_events(machine, history):
     """Events of the last step in the order of time, at one time in that of the file. BUFFER_FULL where it has to be called again."""
-    run, counter = run_at(history), run_at(history).counter
-    when, events = run.event_values[WHEN], record_at(machine).watched.event.shape[0]
+    run, counter = of_run.run_at(history), of_run.run_at(history).counter
+    when, events = run.event_values[of_run.WHEN], record_at(machine).watched.event.shape[0]
     while True:
         next_one = -1
         for k in range(events):
@@ -126,10 +107,10 @@ def hand_out_events(machine, history):
                 next_one = k
         if next_one < 0:
             return OK
-        if counter[EVENTS] == run.events.shape[0]:
+        if counter[of_run.EVENTS] == run.events.shape[0]:
             return BUFFER_FULL
-        row = run.events[counter[EVENTS]]
-        row[0] = min(run.clock[TIME] + when[next_one] * run.clock[LENGTH], run.clock[REACHED])
-        row[1], row[2] = next_one, run.event_values[TO, next_one]
+        row = run.events[counter[of_run.EVENTS]]
+        row[0] = min(run.clock[of_run.TIME] + when[next_one] * run.clock[of_run.LENGTH], run.clock[of_run.REACHED])
+        row[1], row[2] = next_one, run.event_values[of_run.TO, next_one]
         when[next_one] = NEVER
-        counter[EVENTS] += 1
+        counter[of_run.EVENTS] += 1

@@ -4,24 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.integrate.loop import run as of_run
 from nivel.integrate.loop.crossing import read_values
-from nivel.integrate.loop.run import (
-    ALL_STEPS,
-    BEFORE,
-    BOUND,
-    CORNER,
-    DONE_STEPS,
-    END,
-    REACHED,
-    RESTART,
-    START,
-    STEP,
-    STEP_TICKS,
-    TICK_RATE,
-    TIME,
-    TOLERANCE,
-    run_at,
-)
 from nivel.integrate.loop.switches import change_sides, has_switches, release_sides, restore_sides
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
@@ -34,9 +18,9 @@ from nivel.native.function import leaf
 @leaf
 def time_of(run, n):
     """Time after n fixed steps, rounded once: it carries no round-off from step to step. The last step ends at the end."""
-    if n == run.counter[ALL_STEPS]:
-        return run.clock[END]
-    return run.clock[START] + n * run.clock[STEP_TICKS] / run.clock[TICK_RATE]
+    if n == run.counter[of_run.ALL_STEPS]:
+        return run.clock[of_run.END]
+    return run.clock[of_run.START] + n * run.clock[of_run.STEP_TICKS] / run.clock[of_run.TICK_RATE]
 
 
 @leaf
@@ -49,19 +33,19 @@ def is_past(t, other):
 def ends_at_switches(run):
     """Whether steps of fixed size are done in parts between contacts, stops, switches and samples, as in runs for gradients. These have a
     tolerance: what a switch may do to the state unseen."""
-    return run.counter[ALL_STEPS] > 0 and run.clock[TOLERANCE] > 0.0
+    return run.counter[of_run.ALL_STEPS] > 0 and run.clock[of_run.TOLERANCE] > 0.0
 
 
 @leaf
 def is_within(run):
     """Whether the accepted state is one inside a step of fixed size."""
-    return ends_at_switches(run) and run.clock[TIME] > time_of(run, run.counter[DONE_STEPS])
+    return ends_at_switches(run) and run.clock[of_run.TIME] > time_of(run, run.counter[of_run.DONE_STEPS])
 
 
 @leaf
 def completes(run, t):
     """Whether a step of fixed size is over at the time t, which is that of the state reached."""
-    return not ends_at_switches(run) or is_past(t, time_of(run, run.counter[DONE_STEPS] + 1))
+    return not ends_at_switches(run) or is_past(t, time_of(run, run.counter[of_run.DONE_STEPS] + 1))
 
 
 @leaf
@@ -72,16 +56,16 @@ def fit_part(run):
     Functions that have a corner there still are what they were before it: the part ends before the time that this returns.
     """
     clock = run.clock
-    if not is_past(clock[BOUND], clock[REACHED]):
-        clock[REACHED] = clock[BOUND]
-    elif is_past(clock[REACHED], clock[BOUND]):
-        clock[REACHED] += clock[BOUND] - real(clock[BOUND])
-    left, reached, k = clock[REACHED] - clock[TIME], clock[REACHED], run.counter[CORNER]
+    if not is_past(clock[of_run.BOUND], clock[of_run.REACHED]):
+        clock[of_run.REACHED] = clock[of_run.BOUND]
+    elif is_past(clock[of_run.REACHED], clock[of_run.BOUND]):
+        clock[of_run.REACHED] += clock[of_run.BOUND] - real(clock[of_run.BOUND])
+    left, reached, k = clock[of_run.REACHED] - clock[of_run.TIME], clock[of_run.REACHED], run.counter[of_run.CORNER]
     whole = completes(run, reached) and not is_within(run)
-    clock[STEP] = clock[STEP] + (left - real(left)) if whole else left
+    clock[of_run.STEP] = clock[of_run.STEP] + (left - real(left)) if whole else left
     if k < run.corners.shape[0] and is_past(reached, run.corners[k]):
         early = 2.0 * NEAR * np.abs(real(reached))
-        clock[REACHED], clock[STEP] = reached - early, clock[STEP] - early
+        clock[of_run.REACHED], clock[of_run.STEP] = reached - early, clock[of_run.STEP] - early
     return reached
 
 
@@ -89,15 +73,15 @@ def fit_part(run):
 def find_bound(machine, run):
     """clock[BOUND] := the time of the next sample or corner, or the end of the run where that is earlier: no step goes beyond it."""
     sampled = record_at(machine).sampled
-    run.clock[BOUND] = run.clock[END]
+    run.clock[of_run.BOUND] = run.clock[of_run.END]
     for k in range(sampled.ticks.shape[0]):
         if sampled.ticks[k] > 0.0:
-            run.clock[BOUND] = min(run.clock[BOUND], next_sample(sampled, run, k))
-    corners, t = run.corners, run.clock[TIME]
-    while run.counter[CORNER] < corners.shape[0] and corners[run.counter[CORNER]] <= t + NEAR * np.abs(t):
-        run.counter[CORNER] += 1
-    if run.counter[CORNER] < corners.shape[0]:
-        run.clock[BOUND] = min(run.clock[BOUND], corners[run.counter[CORNER]])
+            run.clock[of_run.BOUND] = min(run.clock[of_run.BOUND], next_sample(sampled, run, k))
+    corners, t = run.corners, run.clock[of_run.TIME]
+    while run.counter[of_run.CORNER] < corners.shape[0] and corners[run.counter[of_run.CORNER]] <= t + NEAR * np.abs(t):
+        run.counter[of_run.CORNER] += 1
+    if run.counter[of_run.CORNER] < corners.shape[0]:
+        run.clock[of_run.BOUND] = min(run.clock[of_run.BOUND], corners[run.counter[of_run.CORNER]])
 
 
 @leaf
@@ -109,7 +93,7 @@ def next_sample(sampled, run, k):
 @leaf
 def find_due(sampled, run):
     """Which samples are due at the accepted state, and whether any is."""
-    t, found = run.clock[TIME], False
+    t, found = run.clock[of_run.TIME], False
     for k in range(sampled.state.shape[0]):
         sampled.due[k] = 0
         if sampled.ticks[k] > 0.0:
@@ -131,12 +115,12 @@ def take_samples(evaluate, machine, history):
 
     Where one changes, the state is evaluated again, and the method begins anew. Returns a status.
     """
-    run, sampled = run_at(history), record_at(machine).sampled
+    run, sampled = of_run.run_at(history), record_at(machine).sampled
     if not find_due(sampled, run):
         return OK
     if has_switches(machine, run):
         release_sides(machine)
-    status = call_hook(machine, SAMPLE, 0, run.clock[TIME])
+    status = call_hook(machine, SAMPLE, 0, run.clock[of_run.TIME])
     first = np.int64(run.y.shape[0]) - 2 - record_at(machine).elements.state.shape[0]
     changed = False
     for k in range(sampled.state.shape[0]):
@@ -151,8 +135,8 @@ def take_samples(evaluate, machine, history):
     if status != OK or not changed:
         return status
     status = change_sides(evaluate, machine, history)
-    if run.counter[DONE_STEPS] > 0 or is_within(run):
-        run.counter[RESTART] = 1
+    if run.counter[of_run.DONE_STEPS] > 0 or is_within(run):
+        run.counter[of_run.RESTART] = 1
         if status == OK and run.event_values.shape[1] > 0:
-            status = read_values(machine, history, BEFORE, run.clock[TIME])
+            status = read_values(machine, history, of_run.BEFORE, run.clock[of_run.TIME])
     return status

@@ -2,23 +2,8 @@
 
 from __future__ import annotations
 
+from nivel.integrate.loop import run as of_run
 from nivel.integrate.loop.crossing import NEVER, SHARE, end_at, find_crossings, locate, side_of, value_at
-from nivel.integrate.loop.run import (
-    AFTER,
-    BEFORE,
-    BOUND,
-    LARGEST,
-    LENGTH,
-    RATE_AFTER,
-    RATE_BEFORE,
-    RESTART,
-    SIDE,
-    STEP,
-    SWITCHED,
-    TIME,
-    WHEN,
-    run_at,
-)
 from nivel.integrate.loop.switches import find_between, first_switch, has_switches, let_go
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
@@ -52,10 +37,10 @@ def look_into(evaluate, correct, machine, history, k):
     Such a step comes nearer to the change of sides at its begin and goes away from it at its end. States are looked at where the
     tangents of the distance meet (Kelley 1960), until one is on the other side, or the tangents meet before it.
     """
-    run, watched = run_at(history), record_at(machine).watched
-    values, side, h = run.event_values, run.event_values[SIDE, k], run.clock[LENGTH]
-    low, distance_low, rate_low = 0.0, side * values[BEFORE, k], side * h * values[RATE_BEFORE, k]
-    high, distance_high, rate_high = 1.0, side * values[AFTER, k], side * h * values[RATE_AFTER, k]
+    run, watched = of_run.run_at(history), record_at(machine).watched
+    values, side, h = run.event_values, run.event_values[of_run.SIDE, k], run.clock[of_run.LENGTH]
+    low, distance_low, rate_low = 0.0, side * values[of_run.BEFORE, k], side * h * values[of_run.RATE_BEFORE, k]
+    high, distance_high, rate_high = 1.0, side * values[of_run.AFTER, k], side * h * values[of_run.RATE_AFTER, k]
     for _ in range(LOOKS):
         if rate_low >= 0.0 or rate_high <= 0.0:
             break
@@ -85,7 +70,7 @@ def has_heights(machine):
 def keep_ways(machine, run):
     """Ways over heights begin, or go on, at the state last evaluated, which is accepted."""
     if has_heights(machine):
-        call_hook(machine, WATCH, KEEP, run.clock[TIME])
+        call_hook(machine, WATCH, KEEP, run.clock[of_run.TIME])
 
 
 @leaf
@@ -93,11 +78,13 @@ def allow_ahead(machine, run):
     """clock[LARGEST] no longer than the heights ahead of what touches them allow."""
     if has_heights(machine):
         clock = run.clock
-        h = min(real(clock[STEP]), real(clock[LARGEST]), real(clock[BOUND]) - real(clock[TIME]))
-        call_hook(machine, WATCH, AHEAD, clock[TIME] + h)
+        h = min(
+            real(clock[of_run.STEP]), real(clock[of_run.LARGEST]), real(clock[of_run.BOUND]) - real(clock[of_run.TIME])
+        )
+        call_hook(machine, WATCH, AHEAD, clock[of_run.TIME] + h)
         share = real(record_at(machine).watched.value[0])
         if share < 1.0:
-            clock[LARGEST] = share * h
+            clock[of_run.LARGEST] = share * h
 
 
 @leaf
@@ -105,19 +92,19 @@ def look_over_heights(evaluate, correct, machine, history, events):
     """WHEN := where points change their sides first over heights between the ends of the step. Returns a status.
 
     What the way between both ends shows is looked at in the state there."""
-    run, watched = run_at(history), record_at(machine).watched
-    values, end = run.event_values, run.clock[TIME] + run.clock[LENGTH]
+    run, watched = of_run.run_at(history), record_at(machine).watched
+    values, end = run.event_values, run.clock[of_run.TIME] + run.clock[of_run.LENGTH]
     for k in range(events, first_switch(machine)):
         theta = 0.0
         for _ in range(LOOKS):
             watched.value[k] = theta
             call_hook(machine, WATCH, LOOK + k, end)
             theta = real(watched.value[k])
-            if not theta < min(values[WHEN, k], 1.0):
+            if not theta < min(values[of_run.WHEN, k], 1.0):
                 break
             status, value = value_at(evaluate, correct, machine, history, k, theta)
-            if status == OK and side_of(value, k, events) != values[SIDE, k]:
-                status, values[WHEN, k] = locate(evaluate, correct, machine, history, k, theta, value)
+            if status == OK and side_of(value, k, events) != values[of_run.SIDE, k]:
+                status, values[of_run.WHEN, k] = locate(evaluate, correct, machine, history, k, theta, value)
                 theta = 1.0
             if status != OK:
                 return status
@@ -127,25 +114,25 @@ def look_over_heights(evaluate, correct, machine, history, events):
 @leaf
 def find_contacts(evaluate, correct, machine, history, events):
     """(status, θ) where the step has to end because a contact or stop begins or ends, or a switch changes; 1 where none does."""
-    run = run_at(history)
+    run = of_run.run_at(history)
     values = run.event_values
     if values.shape[1] == events:
         return OK, 1.0
     if has_heights(machine):
-        call_hook(machine, WATCH, ARRIVE, run.clock[TIME] + run.clock[LENGTH])
+        call_hook(machine, WATCH, ARRIVE, run.clock[of_run.TIME] + run.clock[of_run.LENGTH])
     status = find_crossings(evaluate, correct, machine, history, events, values.shape[1], 1.0)
     for k in range(events, first_switch(machine)):
-        if status == OK and values[WHEN, k] == NEVER:
+        if status == OK and values[of_run.WHEN, k] == NEVER:
             status, theta, value = look_into(evaluate, correct, machine, history, k)
-            if status == OK and theta < NEVER and side_of(value, k, events) != values[SIDE, k]:
-                status, values[WHEN, k] = locate(evaluate, correct, machine, history, k, theta, value)
+            if status == OK and theta < NEVER and side_of(value, k, events) != values[of_run.SIDE, k]:
+                status, values[of_run.WHEN, k] = locate(evaluate, correct, machine, history, k, theta, value)
     if status == OK and has_heights(machine):
         status = look_over_heights(evaluate, correct, machine, history, events)
     if status == OK and has_switches(machine, run):
         status = find_between(evaluate, correct, machine, history)
-    end = first_of(values[WHEN], events)
+    end = first_of(values[of_run.WHEN], events)
     if end < NEVER:
-        run.counter[RESTART], run.counter[SWITCHED] = 1, 1
+        run.counter[of_run.RESTART], run.counter[of_run.SWITCHED] = 1, 1
         let_go(machine, run, end)
         if status == OK:
             status = end_at(evaluate, correct, machine, history, end)

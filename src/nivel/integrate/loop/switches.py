@@ -13,28 +13,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.integrate.loop import run as of_run
 from nivel.integrate.loop.crossing import NEVER, locate, probe, read_values, value_at
-from nivel.integrate.loop.run import (
-    AFTER,
-    BEFORE,
-    EVALUATIONS,
-    JUMP,
-    KNOWN,
-    LAST,
-    LENGTH,
-    MIDDLE,
-    PAST,
-    PATIENCE,
-    REACHED,
-    SIDE,
-    SLOPE,
-    SWITCHED,
-    TIME,
-    TOLERANCE,
-    WAIT,
-    WHEN,
-    run_at,
-)
 from nivel.integrate.loop.step_control import size
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate
@@ -73,7 +53,7 @@ def restore_sides(machine, run):
     """The sides of the accepted state are kept again."""
     held, first = record_at(machine).watched.held, first_switch(machine)
     for k in range(held.shape[0]):
-        held[k] = run.event_values[LAST, first + k] if run.event_values[WAIT, first + k] == 0.0 else 0.0
+        held[k] = run.event_values[of_run.LAST, first + k] if run.event_values[of_run.WAIT, first + k] == 0.0 else 0.0
 
 
 @leaf
@@ -89,11 +69,13 @@ def hold_side(machine, run, k):
     """Switch k keeps the side of the state last evaluated, unless it is let go."""
     record, values, place = record_at(machine), run.event_values, first_switch(machine) + k
     side = side_now(machine, k)
-    values[LAST, place] = side
-    record.watched.held[k] = side if values[WAIT, place] == 0.0 else 0.0
-    values[SIDE, place] = np.abs(record.watched.held[k])
-    values[BEFORE, place] = side * record.functions.arguments[record.watched.switch[k, 1]] if side != 0.0 else 0.0
-    values[PAST, place] = 0.0
+    values[of_run.LAST, place] = side
+    record.watched.held[k] = side if values[of_run.WAIT, place] == 0.0 else 0.0
+    values[of_run.SIDE, place] = np.abs(record.watched.held[k])
+    values[of_run.BEFORE, place] = (
+        side * record.functions.arguments[record.watched.switch[k, 1]] if side != 0.0 else 0.0
+    )
+    values[of_run.PAST, place] = 0.0
 
 
 @leaf
@@ -103,33 +85,37 @@ def note_sides(machine, run):
     held = record_at(machine).watched.held
     for k in range(held.shape[0]):
         place, side = first + k, side_now(machine, k)
-        values[JUMP, place] = 0.0
-        if values[WAIT, place] > 0.0:
-            values[WAIT, place] = values[WAIT, place] - 1.0 if side == values[LAST, place] else values[PATIENCE, place]
+        values[of_run.JUMP, place] = 0.0
+        if values[of_run.WAIT, place] > 0.0:
+            values[of_run.WAIT, place] = (
+                values[of_run.WAIT, place] - 1.0
+                if side == values[of_run.LAST, place]
+                else values[of_run.PATIENCE, place]
+            )
             hold_side(machine, run, k)
         elif side != held[k]:
-            run.counter[SWITCHED] = 1
+            run.counter[of_run.SWITCHED] = 1
 
 
 @leaf
 def change_sides(evaluate, machine, history):
     """Contacts, stops and switches are on the sides of the accepted state from here on; its rate is evaluated anew. Returns a status."""
-    run, watched = run_at(history), record_at(machine).watched
-    run.counter[SWITCHED] = 0
-    run.counter[EVALUATIONS] += 1
+    run, watched = of_run.run_at(history), record_at(machine).watched
+    run.counter[of_run.SWITCHED] = 0
+    run.counter[of_run.EVALUATIONS] += 1
     if not has_switches(machine, run):
-        return call_evaluate(evaluate, machine, run.clock[TIME], run.y, run.rate)
+        return call_evaluate(evaluate, machine, run.clock[of_run.TIME], run.y, run.rate)
     for i in range(run.y.shape[0]):
         run.scratch[i] = run.rate[i]
     release_sides(machine)
-    status = call_evaluate(evaluate, machine, run.clock[TIME], run.y, run.rate)
+    status = call_evaluate(evaluate, machine, run.clock[of_run.TIME], run.y, run.rate)
     for i in range(run.y.shape[0]):
         run.scratch[i] -= run.rate[i]
     jump, first = size(run, run.scratch), first_switch(machine)
     for k in range(watched.held.shape[0]):
-        before = run.event_values[LAST, first + k]
+        before = run.event_values[of_run.LAST, first + k]
         hold_side(machine, run, k)
-        run.event_values[JUMP, first + k] = jump if run.event_values[LAST, first + k] != before else 0.0
+        run.event_values[of_run.JUMP, first + k] = jump if run.event_values[of_run.LAST, first + k] != before else 0.0
     return status
 
 
@@ -140,12 +126,12 @@ def may_return(machine, run):
     A parabola through three accepted states leaves its chord by |Δslope| h²/(4 (h + past)) in the last step; a margin that bends four
     times as much may pass zero.
     """
-    values, h = run.event_values, run.clock[REACHED] - run.clock[TIME]
+    values, h = run.event_values, run.clock[of_run.REACHED] - run.clock[of_run.TIME]
     for k in range(first_switch(machine), values.shape[1]):
-        if values[SIDE, k] > 0.0 and values[AFTER, k] > 0.0:
-            past, slope = values[PAST, k], (values[AFTER, k] - values[BEFORE, k]) / h
-            bend = np.abs(slope - values[SLOPE, k]) * h * h / (h + past)
-            if past == 0.0 or bend > min(values[BEFORE, k], values[AFTER, k]):
+        if values[of_run.SIDE, k] > 0.0 and values[of_run.AFTER, k] > 0.0:
+            past, slope = values[of_run.PAST, k], (values[of_run.AFTER, k] - values[of_run.BEFORE, k]) / h
+            bend = np.abs(slope - values[of_run.SLOPE, k]) * h * h / (h + past)
+            if past == 0.0 or bend > min(values[of_run.BEFORE, k], values[of_run.AFTER, k]):
                 return True
     return False
 
@@ -153,18 +139,18 @@ def may_return(machine, run):
 @leaf
 def note_slopes(run):
     """Keep the mean slopes of all values in the step just done, for the next one."""
-    values, h = run.event_values, run.clock[REACHED] - run.clock[TIME]
+    values, h = run.event_values, run.clock[of_run.REACHED] - run.clock[of_run.TIME]
     for k in range(values.shape[1]):
-        values[SLOPE, k], values[PAST, k] = (values[AFTER, k] - values[BEFORE, k]) / h, h
+        values[of_run.SLOPE, k], values[of_run.PAST, k] = (values[of_run.AFTER, k] - values[of_run.BEFORE, k]) / h, h
 
 
 @leaf
 def look_half_way(evaluate, correct, machine, history):
     """Row MIDDLE := the margins half way through the last step. Returns a status."""
-    run = run_at(history)
+    run = of_run.run_at(history)
     status = probe(evaluate, correct, machine, history, 0.5)
     if status == OK:
-        status = read_values(machine, history, MIDDLE, run.clock[TIME] + 0.5 * run.clock[LENGTH])
+        status = read_values(machine, history, of_run.MIDDLE, run.clock[of_run.TIME] + 0.5 * run.clock[of_run.LENGTH])
     return status
 
 
@@ -174,23 +160,23 @@ def pass_unseen(evaluate, machine, history):
 
     scratch is the rate at the end of the step on the sides kept.
     """
-    run = run_at(history)
+    run = of_run.run_at(history)
     values, first, crossed = run.event_values, first_switch(machine), False
     for k in range(first, values.shape[1]):
-        crossed = crossed or (values[SIDE, k] > 0.0 and values[AFTER, k] < 0.0)
+        crossed = crossed or (values[of_run.SIDE, k] > 0.0 and values[of_run.AFTER, k] < 0.0)
     if not crossed:
         return
     release_sides(machine)
-    run.counter[EVALUATIONS] += 1
-    run.counter[KNOWN] = 0
-    status = call_evaluate(evaluate, machine, run.clock[REACHED], run.y, run.trial)
+    run.counter[of_run.EVALUATIONS] += 1
+    run.counter[of_run.KNOWN] = 0
+    status = call_evaluate(evaluate, machine, run.clock[of_run.REACHED], run.y, run.trial)
     restore_sides(machine, run)
     for i in range(run.y.shape[0]):
         run.trial[i] -= run.scratch[i]
-    if status == OK and run.clock[LENGTH] * size(run, run.trial) <= UNSEEN * run.clock[TOLERANCE]:
-        run.counter[SWITCHED] = 1
+    if status == OK and run.clock[of_run.LENGTH] * size(run, run.trial) <= UNSEEN * run.clock[of_run.TOLERANCE]:
+        run.counter[of_run.SWITCHED] = 1
         for k in range(first, values.shape[1]):
-            values[AFTER, k] = np.abs(values[AFTER, k])
+            values[of_run.AFTER, k] = np.abs(values[of_run.AFTER, k])
 
 
 @leaf
@@ -200,10 +186,10 @@ def look_between(evaluate, correct, machine, history, k, end, between):
 
     States are looked at where the parabola through the nearest three values known is least, as long as that is beyond (Brent 1973, §5.3).
     """
-    values = run_at(history).event_values
-    side = values[SIDE, k]
+    values = of_run.run_at(history).event_values
+    side = values[of_run.SIDE, k]
     low, middle, high = 0.0, 0.5 * end, end
-    f, g, h = max(side * values[BEFORE, k], 0.0), side * between, side * values[AFTER, k]
+    f, g, h = max(side * values[of_run.BEFORE, k], 0.0), side * between, side * values[of_run.AFTER, k]
     if g < 0.0:
         return OK, middle, between
     for _ in range(LOOKS):
@@ -235,7 +221,7 @@ def look_between(evaluate, correct, machine, history, k, end, between):
 @leaf
 def find_between(evaluate, correct, machine, history):
     """WHEN := where switches change their sides that are back on them at the end of the step. Returns a status."""
-    run = run_at(history)
+    run = of_run.run_at(history)
     values = run.event_values
     if not may_return(machine, run):
         return OK
@@ -243,11 +229,11 @@ def find_between(evaluate, correct, machine, history):
     if status != OK:
         return status
     for k in range(first_switch(machine), values.shape[1]):
-        if values[SIDE, k] == 0.0 or values[WHEN, k] < NEVER:
+        if values[of_run.SIDE, k] == 0.0 or values[of_run.WHEN, k] < NEVER:
             continue
-        status, theta, margin = look_between(evaluate, correct, machine, history, k, 1.0, values[MIDDLE, k])
+        status, theta, margin = look_between(evaluate, correct, machine, history, k, 1.0, values[of_run.MIDDLE, k])
         if status == OK and theta < NEVER:
-            status, values[WHEN, k] = locate(evaluate, correct, machine, history, k, theta, margin)
+            status, values[of_run.WHEN, k] = locate(evaluate, correct, machine, history, k, theta, margin)
         if status != OK:
             return status
     return OK
@@ -256,9 +242,9 @@ def find_between(evaluate, correct, machine, history):
 @leaf
 def let_go(machine, run, end):
     """Let switches go that change at the share `end` of the step, and did at its begin, if their jump has moved next to nothing since."""
-    values, least = run.event_values, UNSEEN * run.clock[TOLERANCE]
+    values, least = run.event_values, UNSEEN * run.clock[of_run.TOLERANCE]
     for k in range(first_switch(machine), values.shape[1]):
-        whole = run.clock[LENGTH] * values[JUMP, k]
-        if values[WHEN, k] <= end and end * whole <= least < whole:
-            values[PATIENCE, k] = max(2.0 * values[PATIENCE, k], 1.0)
-            values[WAIT, k] = values[PATIENCE, k]
+        whole = run.clock[of_run.LENGTH] * values[of_run.JUMP, k]
+        if values[of_run.WHEN, k] <= end and end * whole <= least < whole:
+            values[of_run.PATIENCE, k] = max(2.0 * values[of_run.PATIENCE, k], 1.0)
+            values[of_run.WAIT, k] = values[of_run.PATIENCE, k]

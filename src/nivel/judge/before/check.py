@@ -19,18 +19,7 @@ from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
 from nivel.errors import SolveError
 from nivel.files.joint_parts import rotors_of
-from nivel.judge.before.in_words import (
-    block_in_words,
-    component_in_words,
-    control_in_words,
-    coupling_in_words,
-    driver_in_words,
-    event_in_words,
-    force_in_words,
-    input_in_words,
-    sensor_in_words,
-    state_in_words,
-)
+from nivel.judge.before import in_words
 from nivel.kernels.core.status import OK
 from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.machine_record import MachineRecord
@@ -290,18 +279,18 @@ def check(plan: Plan) -> Check:
             _joint(system, k, joint, values) for k, joint in enumerate(machine.joints) if joint.name not in rotors
         ),
         couplings=tuple(
-            gears.get(coupling.name) or coupling_in_words(machine, coupling) for coupling in machine.couplings
+            gears.get(coupling.name) or in_words.coupling_in_words(machine, coupling) for coupling in machine.couplings
         ),
-        drivers=tuple(driver_in_words(driver) for driver in machine.drivers),
-        forces=tuple(force_in_words(machine, force) for force in machine.forces),
+        drivers=tuple(in_words.driver_in_words(driver) for driver in machine.drivers),
+        forces=tuple(in_words.force_in_words(machine, force) for force in machine.forces),
         hydraulics=_hydraulics(machine, system),
         pressures={node.variable: float(record.circuit.pressure[k]) for k, node in enumerate(system.nodes)},
-        inputs=tuple(input_in_words(each) for each in machine.inputs),
-        states=tuple(state_in_words(state) for state in machine.states),
-        control=tuple(block_in_words(block) for block in machine.control),
-        control_size=control_in_words(machine.control) if machine.control else "",
-        sensors=tuple(sensor_in_words(sensor) for sensor in machine.sensors),
-        events=tuple(event_in_words(event) for event in machine.events),
+        inputs=tuple(in_words.input_in_words(each) for each in machine.inputs),
+        states=tuple(in_words.state_in_words(state) for state in machine.states),
+        control=tuple(in_words.block_in_words(block) for block in machine.control),
+        control_size=in_words.control_in_words(machine.control) if machine.control else "",
+        sensors=tuple(in_words.sensor_in_words(sensor) for sensor in machine.sensors),
+        events=tuple(in_words.event_in_words(event) for event in machine.events),
         degrees_of_freedom=redundancy.degrees_of_freedom,
         position_freedoms=redundancy.position_freedoms,
         freedoms=named_freedoms(machine, measured),
@@ -344,7 +333,7 @@ def _hydraulics(machine: MachineRecord, system: System) -> tuple[str, ...]:
     names = {component.name for component in machine.hydraulics}
     count = sum(not fact.integral and fact.name.partition(".")[0] in names for fact in system.states)
     return (
-        *(component_in_words(component) for component in machine.hydraulics),
+        *(in_words.component_in_words(component) for component in machine.hydraulics),
         f"start: {', '.join(pressures)}",
         f"{count} state{'s' * (count != 1)} of components",
         *_without_slopes(machine),

@@ -15,24 +15,12 @@ from typing import Final, Literal, NamedTuple, TypeVar
 import numpy as np
 
 from nivel.lazy import dataclass
-from nivel.machine.units import intervals
+from nivel.machine.units import intervals, tree
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.intervals import Array, Interval
-from nivel.machine.units.tree import (
-    COMPARISONS,
-    CONSTANTS,
-    LOGICAL,
-    Call,
-    Node,
-    Number,
-    Operation,
-    Signal,
-    parts,
-    substituted,
-)
 
 Argument = TypeVar("Argument")
-Pair = tuple[Node, Node | None]
+Pair = tuple[tree.Node, tree.Node | None]
 
 
 class Alike(NamedTuple):
@@ -70,17 +58,17 @@ def _between_points(order: int) -> Units:
     return Units((Alike(-float(order), (0, 1, 3)), Alike(1.0, (2, 4), "joined")))
 
 
-def _sign_decides(counts: Callable[..., bool], x: Node, *_: Node) -> Iterator[Pair]:
+def _sign_decides(counts: Callable[..., bool], x: tree.Node, *_: tree.Node) -> Iterator[Pair]:
     if counts(x):
         yield x, None
 
 
-def _order_decides(counts: Callable[..., bool], *arguments: Node) -> Iterator[Pair]:
+def _order_decides(counts: Callable[..., bool], *arguments: tree.Node) -> Iterator[Pair]:
     pairs = ((first, second) for k, first in enumerate(arguments) for second in arguments[:k])
     yield from (pair for pair in pairs if counts(*pair))
 
 
-def _ends_decide(counts: Callable[..., bool], *arguments: Node) -> Iterator[Pair]:
+def _ends_decide(counts: Callable[..., bool], *arguments: tree.Node) -> Iterator[Pair]:
     if counts(*arguments):
         yield from ((arguments[0], arguments[k]) for k in (1, 3))
 
@@ -130,13 +118,13 @@ class FunctionKind:
         return 99 if self.more else len(self.names)
 
     @property
-    def body(self) -> Node:
+    def body(self) -> tree.Node:
         """The tree of the form, in which the arguments stand as signals."""
         return read(self.form, self.names)
 
-    def written(self, text: str, arguments: tuple[Node, ...]) -> Node:
+    def written(self, text: str, arguments: tuple[tree.Node, ...]) -> tree.Node:
         """One of the texts with these arguments in it."""
-        return substituted(read(text, self.names), dict(zip(self.names, arguments, strict=True)))
+        return tree.substituted(read(text, self.names), dict(zip(self.names, arguments, strict=True)))
 
     @property
     def is_form_alone(self) -> bool:
@@ -145,26 +133,26 @@ class FunctionKind:
 
 
 @lru_cache(maxsize=256)
-def read(text: str, names: tuple[str, ...]) -> Node:
+def read(text: str, names: tuple[str, ...]) -> tree.Node:
     """The tree of a text of the table, in which the `names` stand as signals."""
-    constants = {name: Number(value) for name, value in CONSTANTS.items()}
-    return substituted(parse(text), constants | {name: Signal(name) for name in names})
+    constants = {name: tree.Number(value) for name, value in tree.CONSTANTS.items()}
+    return tree.substituted(parse(text), constants | {name: tree.Signal(name) for name in names})
 
 
-def inner_parts(node: Node) -> tuple[Node, ...]:
+def inner_parts(node: tree.Node) -> tuple[tree.Node, ...]:
     """The parts of `node` in which corners and jumps of other functions can be."""
     match node:
-        case Call(function, arguments) if (kind := FUNCTIONS[function]).is_form_alone:
+        case tree.Call(function, arguments) if (kind := FUNCTIONS[function]).is_form_alone:
             return (kind.written(kind.form, arguments),)
-    return parts(node)
+    return tree.parts(node)
 
 
-def is_truth(node: Node) -> bool:
+def is_truth(node: tree.Node) -> bool:
     """Whether a node is a condition, 1 or 0, whose own sides say where it changes."""
     match node:
-        case Operation(symbol):
-            return symbol in (*COMPARISONS, *LOGICAL)
-        case Call(function):
+        case tree.Operation(symbol):
+            return symbol in (*tree.COMPARISONS, *tree.LOGICAL)
+        case tree.Call(function):
             return FUNCTIONS[function].is_truth
     return False
 

@@ -26,23 +26,7 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import Literal, NamedTuple
 
-from nivel.machine.units.tree import (
-    COMPARISONS,
-    CONSTANTS,
-    LOGICAL,
-    TIME,
-    Call,
-    ExpressionError,
-    Name,
-    Negative,
-    Node,
-    Number,
-    Operation,
-    Signal,
-    Time,
-    finite,
-    leaves,
-)
+from nivel.machine.units import tree
 from nivel.machine.units.unit import UNITS
 from nivel.words.wording import in_expressions
 
@@ -56,7 +40,7 @@ _TOKEN = re.compile(
 
 
 @lru_cache(maxsize=4096)
-def parse(text: str) -> Node:
+def parse(text: str) -> tree.Node:
     """The tree of `text`, names unbound.
 
     Raises ExpressionError.
@@ -73,49 +57,49 @@ class _Parser:
         self.at = 0
         self.depth = 0
 
-    def whole(self) -> Node:
+    def whole(self) -> tree.Node:
         node = self.condition()
         if self.at < len(self.tokens):
             raise self.unexpected()
         return _units(node, "unit") if _is_plain_quantity(node) else node
 
-    def condition(self) -> Node:
+    def condition(self) -> tree.Node:
         self.deeper()
         node = self.both()
         while self.word() == "or":
-            node = Operation(self.take(), node, self.both())
+            node = tree.Operation(self.take(), node, self.both())
         self.depth -= 1
         return node
 
-    def both(self) -> Node:
+    def both(self) -> tree.Node:
         node = self.compared()
         while self.word() == "and":
-            node = Operation(self.take(), node, self.compared())
+            node = tree.Operation(self.take(), node, self.compared())
         return node
 
-    def compared(self) -> Node:
+    def compared(self) -> tree.Node:
         node = self.sum()
-        if self.symbol() not in COMPARISONS:
+        if self.symbol() not in tree.COMPARISONS:
             return node
-        node = Operation(self.take(), node, self.sum())
-        if self.symbol() in COMPARISONS:
-            raise ExpressionError("one comparison at a time: for `a < x < b` write `a < x and x < b`")
+        node = tree.Operation(self.take(), node, self.sum())
+        if self.symbol() in tree.COMPARISONS:
+            raise tree.ExpressionError("one comparison at a time: for `a < x < b` write `a < x and x < b`")
         return node
 
     def word(self) -> str:
         """`and` or `or`, which stand between conditions; else nothing."""
         text = self.tokens[self.at].text if self.at < len(self.tokens) else ""
-        return text if text in LOGICAL else ""
+        return text if text in tree.LOGICAL else ""
 
-    def sum(self) -> Node:
+    def sum(self) -> tree.Node:
         self.deeper()
         node = self.term()
         while self.symbol() in ("+", "-"):
-            node = Operation(self.take(), node, self.term())
+            node = tree.Operation(self.take(), node, self.term())
         self.depth -= 1
         return node
 
-    def term(self) -> Node:
+    def term(self) -> tree.Node:
         node = self.sign()
         has_unit = divided = False
         joined = ""  # the signs after which a name still belongs to the units behind a number
@@ -129,11 +113,11 @@ class _Parser:
                     joined = "/" if divided else joined
                 else:
                     joined = ""
-                node = Operation(sign, node, operand)
+                node = tree.Operation(sign, node, operand)
             elif self.kind() == "name" and not self.word() and self.follows_number():
                 if divided and has_unit:
-                    raise ExpressionError("which part the last unit belongs to is unclear; write `(2 m)/(4 s)`")
-                node = Operation("*", node, self.unit())
+                    raise tree.ExpressionError("which part the last unit belongs to is unclear; write `(2 m)/(4 s)`")
+                node = tree.Operation("*", node, self.unit())
                 has_unit = True
                 joined = joined or "*/"
             else:
@@ -142,9 +126,9 @@ class _Parser:
     def follows_number(self) -> bool:
         """A unit may stand directly after a number, a closing parenthesis or another unit."""
         kind, text, *_ = self.tokens[self.at - 1]
-        return kind == "number" or text == ")" or (kind == "name" and (text in UNITS or text in CONSTANTS))
+        return kind == "number" or text == ")" or (kind == "name" and (text in UNITS or text in tree.CONSTANTS))
 
-    def sign(self) -> Node:
+    def sign(self) -> tree.Node:
         sign = self.symbol()
         if sign not in ("+", "-"):
             return self.power()
@@ -152,30 +136,30 @@ class _Parser:
         self.deeper()
         operand = self.sign()
         self.depth -= 1
-        return Negative(operand) if sign == "-" else operand
+        return tree.Negative(operand) if sign == "-" else operand
 
-    def power(self) -> Node:
+    def power(self) -> tree.Node:
         return self.raised(self.atom())
 
-    def raised(self, base: Node) -> Node:
+    def raised(self, base: tree.Node) -> tree.Node:
         if self.symbol() not in ("^", "**"):
             return base
         self.take()
         self.deeper()
         exponent = self.sign()
         self.depth -= 1
-        return Operation("**", base, exponent)
+        return tree.Operation("**", base, exponent)
 
-    def unit(self) -> Node:
+    def unit(self) -> tree.Node:
         name = self.take()
         if self.symbol() == "(" or "." in name:
-            raise ExpressionError(f"`*` is missing before `{name}`")
-        return self.raised(replace(named, place="unit") if isinstance(named := _named(name), Name) else named)
+            raise tree.ExpressionError(f"`*` is missing before `{name}`")
+        return self.raised(replace(named, place="unit") if isinstance(named := _named(name), tree.Name) else named)
 
-    def atom(self) -> Node:
+    def atom(self) -> tree.Node:
         kind = self.kind()
         if kind == "number":
-            return Number(finite(float(self.take())))
+            return tree.Number(tree.finite(float(self.take())))
         if kind == "name":
             name = self.take()
             if self.symbol() == "(":
@@ -188,19 +172,19 @@ class _Parser:
             return node
         raise self.unexpected()
 
-    def call(self, name: str) -> Node:
+    def call(self, name: str) -> tree.Node:
         self.take()
         arguments = [self.condition()]
         while self.symbol() == ",":
             self.take()
             arguments.append(self.condition())
         self.expect(")")
-        return Call(name, tuple(arguments))
+        return tree.Call(name, tuple(arguments))
 
     def deeper(self) -> None:
         self.depth += 1
         if self.depth > _DEEPEST:
-            raise ExpressionError("the expression is nested too deeply")
+            raise tree.ExpressionError("the expression is nested too deeply")
 
     def kind(self) -> str:
         return self.tokens[self.at].kind if self.at < len(self.tokens) else "end"
@@ -217,56 +201,60 @@ class _Parser:
             raise self.unexpected(f"; `{symbol}` was expected")
         self.take()
 
-    def unexpected(self, hint: str = "") -> ExpressionError:
+    def unexpected(self, hint: str = "") -> tree.ExpressionError:
         if self.at >= len(self.tokens):
-            return ExpressionError(f"the expression ends too early{hint}")
-        return ExpressionError(f"`{self.tokens[self.at].text}` was not expected here{hint}")
+            return tree.ExpressionError(f"the expression ends too early{hint}")
+        return tree.ExpressionError(f"`{self.tokens[self.at].text}` was not expected here{hint}")
 
 
-def _is_of_units(node: Node, *, product: bool = False) -> bool:
+def _is_of_units(node: tree.Node, *, product: bool = False) -> bool:
     """Whether `node` is made of names of units only: ``m``, ``s^2``, and unless it stands in a `product` ``(m*s)``."""
     match node:
-        case Name(text):
+        case tree.Name(text):
             return text in UNITS
-        case Operation("**", base, exponent):
-            return _is_of_units(base, product=product) and not any(isinstance(each, Name) for each in leaves(exponent))
-        case Operation("*" | "/", left, right):
+        case tree.Operation("**", base, exponent):
+            return _is_of_units(base, product=product) and not any(
+                isinstance(each, tree.Name) for each in tree.leaves(exponent)
+            )
+        case tree.Operation("*" | "/", left, right):
             return not product and _is_of_units(left) and _is_of_units(right)
     return False
 
 
-def _units(node: Node, place: Literal["unit", "product"]) -> Node:
+def _units(node: tree.Node, place: Literal["unit", "product"]) -> tree.Node:
     """`node` with its names in another place."""
     match node:
-        case Name(text):
-            return Name(text, place)
-        case Negative(operand):
-            return Negative(_units(operand, place))
-        case Operation(symbol, left, right):
-            return Operation(symbol, _units(left, place), _units(right, place))
+        case tree.Name(text):
+            return tree.Name(text, place)
+        case tree.Negative(operand):
+            return tree.Negative(_units(operand, place))
+        case tree.Operation(symbol, left, right):
+            return tree.Operation(symbol, _units(left, place), _units(right, place))
     return node
 
 
-def _is_plain_quantity(node: Node) -> bool:
+def _is_plain_quantity(node: tree.Node) -> bool:
     """Whether `node` is a number and units: ``-10 N*m``, ``3/8 in``."""
     match node:
-        case Negative(operand):
+        case tree.Negative(operand):
             return _is_plain_quantity(operand)
-        case Operation("*" | "/", left, right):
-            if all(isinstance(leaf, Number) for leaf in leaves(right)):
+        case tree.Operation("*" | "/", left, right):
+            if all(isinstance(leaf, tree.Number) for leaf in tree.leaves(right)):
                 return _is_plain_quantity(left)
-            in_place = all(leaf.place != "free" for leaf in leaves(right) if isinstance(leaf, Name))
+            in_place = all(leaf.place != "free" for leaf in tree.leaves(right) if isinstance(leaf, tree.Name))
             return in_place and _is_of_units(right) and _is_plain_quantity(left)
-    return isinstance(node, Number)
+    return isinstance(node, tree.Number)
 
 
-def _named(name: str) -> Node:
+def _named(name: str) -> tree.Node:
     if "." not in name:
-        return Time() if name == TIME else Name(name)
+        return tree.Time() if name == tree.TIME else tree.Name(name)
     name = in_expressions(name)
     if name.count(".") > 1:
-        raise ExpressionError(f"`{name}` has more than one dot; `ELEMENT.QUANTITY` was expected, such as `hinge.angle`")
-    return Signal(name)
+        raise tree.ExpressionError(
+            f"`{name}` has more than one dot; `ELEMENT.QUANTITY` was expected, such as `hinge.angle`"
+        )
+    return tree.Signal(name)
 
 
 class Token(NamedTuple):
@@ -287,13 +275,13 @@ def placed_tokens(text: str) -> list[Token]:
         if found is None:
             sign = text[at:].lstrip()[0]
             hint = "; numbers that vary are hardly ever equal: write `<` or `>`" if sign in "=!" else ""
-            raise ExpressionError(f"`{sign}` is not understood{hint}")
+            raise tree.ExpressionError(f"`{sign}` is not understood{hint}")
         kind = str(found.lastgroup)
         tokens.append(Token(kind, found.group(kind), *found.span(kind)))
         at = found.end()
         parts += kind != "number" and tokens[-1].text != ","
         if parts > _MOST_TOKENS or len(tokens) > _MOST_LISTED:
-            raise ExpressionError("the expression is too long; split it with `parameters:`")
+            raise tree.ExpressionError("the expression is too long; split it with `parameters:`")
     if not tokens:
-        raise ExpressionError("a number was expected, got nothing")
+        raise tree.ExpressionError("a number was expected, got nothing")
     return tokens

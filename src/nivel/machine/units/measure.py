@@ -11,26 +11,11 @@ from functools import reduce
 from itertools import islice, product
 from typing import Final
 
+from nivel.machine.units import tree
 from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.dimension import Dimension, described, dimension, known, power, without_angle
 from nivel.machine.units.dimension import product as product_of
 from nivel.machine.units.functions import FUNCTIONS
-from nivel.machine.units.tree import (
-    TIME,
-    Call,
-    ExpressionError,
-    Lookup,
-    Name,
-    Negative,
-    Node,
-    Number,
-    Operation,
-    Signal,
-    Time,
-    leaves,
-    signals,
-    varies,
-)
 
 _RADIAN: Final = dimension(rad=1)
 _SECOND: Final = dimension(s=1)
@@ -63,13 +48,13 @@ def signal_dimensions(path: str) -> tuple[Dimension, ...]:
     return (_RADIAN,) if last.startswith("angle") else ()
 
 
-def readings(node: Node) -> Iterator[Reading]:
+def readings(node: tree.Node) -> Iterator[Reading]:
     """The ways to take the variables of `node`, likely ones first: all bare, all quantities, then each either way."""
     choices: dict[str, tuple[Dimension | None, ...]] = {
-        path: (None, *signal_dimensions(path)) for path in signals(node)
+        path: (None, *signal_dimensions(path)) for path in tree.signals(node)
     }
-    if any(isinstance(leaf, Time) for leaf in leaves(node)):
-        choices[TIME] = (None, _SECOND)
+    if any(isinstance(leaf, tree.Time) for leaf in tree.leaves(node)):
+        choices[tree.TIME] = (None, _SECOND)
     yield {}
     quantities = [options[1:] or options for options in choices.values()]
     for options in (quantities, list(choices.values())):
@@ -77,71 +62,71 @@ def readings(node: Node) -> Iterator[Reading]:
             yield dict(zip(choices, chosen, strict=True))
 
 
-def measure(node: Node, reading: Reading | None = None) -> Dimension | None:
+def measure(node: tree.Node, reading: Reading | None = None) -> Dimension | None:
     """Dimension of `node` in one reading of its variables; None for a bare number.
 
     Raises ExpressionError where dimensions clash.
     """
     reading = reading or {}
     match node:
-        case Number(_, its):
+        case tree.Number(_, its):
             return None if its is None else known(its)
-        case Time():
-            return reading.get(TIME)
-        case Signal(path):
+        case tree.Time():
+            return reading.get(tree.TIME)
+        case tree.Signal(path):
             return reading.get(path)
-        case Negative(operand):
+        case tree.Negative(operand):
             return measure(operand, reading)
-        case Call(function, arguments):
+        case tree.Call(function, arguments):
             return _of_call(function, [measure(argument, reading) for argument in arguments])
-        case Operation(symbol, left, right):
+        case tree.Operation(symbol, left, right):
             return _of_operation(symbol, left, right, reading)
-        case Lookup(argument):
+        case tree.Lookup(argument):
             measure(argument, reading)  # for clashes in it; the points of a curve are numbers
             return None
-        case Name(text):
-            raise ExpressionError(f"`{text}` has no value")
+        case tree.Name(text):
+            raise tree.ExpressionError(f"`{text}` has no value")
 
 
-def refuse_unlike_terms(node: Node) -> None:
+def refuse_unlike_terms(node: tree.Node) -> None:
     """Refuse a sum in which a quantity with a unit stands beside `time` or a signal of another dimension: `hinge.angle - 2 m`.
 
     Only where they stand for themselves: in `200*arm.x - 5 N` the bare 200 may be a stiffness.
     Raises ExpressionError.
     """
     terms = list(_terms(node))
-    quantities = [its for term in terms if not varies(term) and (its := measure(term)) is not None]
+    quantities = [its for term in terms if not tree.varies(term) and (its := measure(term)) is not None]
     if len({without_angle(its) for its in quantities}) > 1:
         return  # what clashes without the signals is told by `measure`
     for term in terms:
         match term:
-            case Time():
-                name, own = TIME, (_SECOND,)
-            case Signal(path):
+            case tree.Time():
+                name, own = tree.TIME, (_SECOND,)
+            case tree.Signal(path):
                 name, own = path, signal_dimensions(path)
             case _:
                 continue
         for its in quantities:
             if own and all(without_angle(its) != without_angle(each) for each in own):
                 meant = " or ".join(described(each) for each in own)
-                raise ExpressionError(
+                raise tree.ExpressionError(
                     f"`{name}` is {meant}; {described(its)} cannot be added to it or subtracted from it"
                 )
 
 
-def _terms(node: Node) -> Iterator[Node]:
+def _terms(node: tree.Node) -> Iterator[tree.Node]:
     """What is added and subtracted in `node`, without signs."""
     match node:
-        case Operation("+" | "-", left, right):
+        case tree.Operation("+" | "-", left, right):
             yield from _terms(left)
             yield from _terms(right)
-        case Negative(operand):
+        case tree.Negative(operand):
             yield from _terms(operand)
         case _:
             yield node
 
 
-def _of_operation(symbol: str, left: Node, right: Node, reading: Reading) -> Dimension | None:
+def _of_operation(symbol: str, left: tree.Node, right: tree.Node, reading: Reading) -> Dimension | None:
     first, second = measure(left, reading), measure(right, reading)
     match symbol:
         case "+" | "-":
@@ -156,11 +141,11 @@ def _of_operation(symbol: str, left: Node, right: Node, reading: Reading) -> Dim
         case "/":
             return product_of(first, power(second, -1))
     if without_angle(second) != without_angle(None):
-        raise ExpressionError(f"an exponent is a pure number, not {described(second)}")
+        raise tree.ExpressionError(f"an exponent is a pure number, not {described(second)}")
     if first is None:
         return None
-    if varies(right):
-        raise ExpressionError("a quantity with a unit cannot be raised to a power that changes with time")
+    if tree.varies(right):
+        raise tree.ExpressionError("a quantity with a unit cannot be raised to a power that changes with time")
     return power(first, evaluate(right))
 
 
@@ -169,7 +154,7 @@ def _of_call(function: str, arguments: list[Dimension | None]) -> Dimension | No
     if units.taken:
         for each in arguments:
             if without_angle(each) != without_angle(None):
-                raise ExpressionError(f"`{function}` is taken of {units.taken}, not of {described(each)}")
+                raise tree.ExpressionError(f"`{function}` is taken of {units.taken}, not of {described(each)}")
     for group in units.alike:
         its = reduce(lambda first, second, done=group.done: _same(first, second, done), group.of(arguments))
         result = product_of(result, power(its, group.exponent)) if group.exponent else result
@@ -180,5 +165,5 @@ def _same(first: Dimension | None, second: Dimension | None, action: str) -> Dim
     if first is None or second is None:
         return first if second is None else second
     if without_angle(first) != without_angle(second):
-        raise ExpressionError(f"{described(first)} and {described(second)} cannot be {action}")
+        raise tree.ExpressionError(f"{described(first)} and {described(second)} cannot be {action}")
     return first

@@ -18,33 +18,12 @@ from typing import Final
 import numpy as np
 
 from nivel.lazy import dataclass, field
+from nivel.machine.units import tree
 from nivel.machine.units.arithmetic import bind, evaluate
 from nivel.machine.units.dimension import BASES, KINDS, NONE, Dimension, without_angle
 from nivel.machine.units.functions import FUNCTIONS
 from nivel.machine.units.grammar import parse, placed_tokens
 from nivel.machine.units.measure import Reading, readings
-from nivel.machine.units.tree import (
-    COMPARISONS,
-    LOGICAL,
-    LOOKUP,
-    TIME,
-    Call,
-    ExpressionError,
-    FaultyParameterError,
-    Function,
-    Name,
-    Negative,
-    Node,
-    Number,
-    Operation,
-    Parameters,
-    Signal,
-    Time,
-    calls,
-    leaves,
-    parts,
-    varies,
-)
 from nivel.machine.units.unit import UNITS
 
 MOST: Final = 3  # factors that are completed at once
@@ -57,7 +36,7 @@ _PURE: Final = (0.5, 0.25, 0.75, 1.5, *map(float, range(1, 11)))  # numbers that
 
 # a literal: whose text it stands in ("" for the expression itself) and which leaf it is there; a parameter: its name
 Leaf = tuple[str, int] | str
-Accepts = Callable[[str, Parameters], None]
+Accepts = Callable[[str, tree.Parameters], None]
 
 
 @dataclass(frozen=True)
@@ -76,7 +55,7 @@ class Completed:
 
 def completed(
     text: str,
-    parameters: Parameters,
+    parameters: tree.Parameters,
     local: tuple[str, ...],
     wanted: tuple[Dimension, ...],
     accepts: Accepts,
@@ -92,7 +71,7 @@ def completed(
     try:
         problem = _Problem(text, parameters, local, constant)
         bound = bind(problem.trees[""], parameters, local)
-    except (ExpressionError, FaultyParameterError):
+    except (tree.ExpressionError, tree.FaultyParameterError):
         return None
     found = sorted(_solutions(problem, bound, wanted), key=lambda each: each.cost)
     for solution in found[:20]:
@@ -103,31 +82,31 @@ def completed(
     return None
 
 
-def _accepted(result: Completed, parameters: Parameters, accepts: Accepts) -> bool:
+def _accepted(result: Completed, parameters: tree.Parameters, accepts: Accepts) -> bool:
     try:
         accepts(result.text, with_bodies(parameters, result.bodies))
-    except (ExpressionError, FaultyParameterError):
+    except (tree.ExpressionError, tree.FaultyParameterError):
         return False
     return True
 
 
-def with_bodies(parameters: Parameters, bodies: Mapping[str, str]) -> Parameters:
+def with_bodies(parameters: tree.Parameters, bodies: Mapping[str, str]) -> tree.Parameters:
     """`parameters` with other texts of some functions. Raises ExpressionError."""
     if not bodies:
         return parameters
-    written = {name: each for name, each in parameters.items() if isinstance(each, Function) and each.text}
-    done: dict[str, Number | Signal | Function | None] = {
+    written = {name: each for name, each in parameters.items() if isinstance(each, tree.Function) and each.text}
+    done: dict[str, tree.Number | tree.Signal | tree.Function | None] = {
         name: each for name, each in parameters.items() if name not in written
     }
 
     def fill(name: str) -> None:
         function = written[name]
         text = bodies.get(name, function.text)
-        tree = parse(text)
-        for used in sorted(set(calls(tree)) & written.keys() - done.keys()):
+        root = parse(text)
+        for used in sorted(set(tree.calls(root)) & written.keys() - done.keys()):
             fill(used)
         known = {each: value for each, value in done.items() if each not in function.arguments}
-        done[name] = Function(function.arguments, bind(tree, known, function.arguments), function.head, text)
+        done[name] = tree.Function(function.arguments, bind(root, known, function.arguments), function.head, text)
 
     for name in written:
         if name not in done:
@@ -152,7 +131,7 @@ class _Affine:
 
 Measured = _Affine | None  # None: a plain number, which fits everywhere
 _PURE_NUMBER: Final = _Affine(NONE)
-_Part = tuple[Node, Measured]
+_Part = tuple[tree.Node, Measured]
 
 
 @dataclass
@@ -167,41 +146,41 @@ class _Solution:
 class _Problem:
     """An expression with all that it calls, in which some factors may lack units."""
 
-    def __init__(self, text: str, parameters: Parameters, local: tuple[str, ...], constant: bool) -> None:
+    def __init__(self, text: str, parameters: tree.Parameters, local: tuple[str, ...], constant: bool) -> None:
         self.parameters, self.local, self.constant = parameters, local, constant
         self.texts = {"": text}
         self.trees = {"": deepcopy(parse(text))}  # leaves are known by their identity, and texts may be alike
         pending = [""]
         while pending:
-            for name in calls(self.trees[pending.pop()]):
+            for name in tree.calls(self.trees[pending.pop()]):
                 function = parameters.get(name)
-                if isinstance(function, Function) and function.text and name not in self.trees:
+                if isinstance(function, tree.Function) and function.text and name not in self.trees:
                     self.texts[name], self.trees[name] = function.text, deepcopy(parse(function.text))
                     pending.append(name)
         self.leaf_of: dict[int, Leaf] = {}
         self.candidates: dict[Leaf, float] = {}  # the smaller the number, the more likely a unit is missing there
         self.literals: set[Leaf] = set()  # without unit, other than zero
-        for owner, tree in self.trees.items():
-            self._look_at(owner, tree)
-        self.wildcards: list[tuple[Node, str, Measured]] = []  # plain parts beside quantities, and whose they are
+        for owner, root in self.trees.items():
+            self._look_at(owner, root)
+        self.wildcards: list[tuple[tree.Node, str, Measured]] = []  # plain parts beside quantities, and whose they are
 
-    def _look_at(self, owner: str, tree: Node) -> None:
+    def _look_at(self, owner: str, root: tree.Node) -> None:
         """Number the leaves of a tree, and find those that may lack a unit."""
         function = self.parameters.get(owner) if owner else None
-        arguments = function.arguments if isinstance(function, Function) else self.local
-        with_unit = {id(leaf) for leaf in _with_units(tree)}
-        for at, leaf in enumerate(leaves(tree)):
+        arguments = function.arguments if isinstance(function, tree.Function) else self.local
+        with_unit = {id(leaf) for leaf in _with_units(root)}
+        for at, leaf in enumerate(tree.leaves(root)):
             match leaf:
-                case Number(value):
+                case tree.Number(value):
                     self.leaf_of[id(leaf)] = (owner, at)
                     small = value in _PURE
                     if value != 0.0 and id(leaf) not in with_unit:
                         self.literals.add((owner, at))
                         if not (small and self.constant):
                             self.candidates[owner, at] = 3.0 if small else 1.0
-                case Name(text) if text not in arguments and id(leaf) not in with_unit:
+                case tree.Name(text) if text not in arguments and id(leaf) not in with_unit:
                     meant = self.parameters.get(text)
-                    if isinstance(meant, Number) and meant.dimension is None:
+                    if isinstance(meant, tree.Number) and meant.dimension is None:
                         self.leaf_of[id(leaf)] = text
                         self.candidates[text] = 0.0
 
@@ -214,7 +193,7 @@ class _Problem:
         walk = _Walk(self, chosen, reading, found)
         try:
             result = walk.of(self.trees[""], "", None)
-        except ExpressionError:
+        except tree.ExpressionError:
             return None
         if result is not None and wanted is not None:
             found.append(result.plus(_Affine(wanted), -1.0))
@@ -225,7 +204,7 @@ class _Problem:
         chosen = {leaf: _Affine(without_angle(its)) for leaf, its in solution.units.items()}
         self.equations(chosen, solution.reading, None)
         owners = {leaf[0] for leaf in solution.units if isinstance(leaf, tuple)}
-        owners |= {owner for owner, tree in self.trees.items() for leaf in solution.units if self._names(tree, leaf)}
+        owners |= {owner for owner, root in self.trees.items() for leaf in solution.units if self._names(root, leaf)}
         units: dict[Leaf, Dimension] = {}
         for node, owner, its in self.wildcards:
             leaf = self.leaf_of.get(id(node))
@@ -235,15 +214,15 @@ class _Problem:
                 units.setdefault(leaf, its.known)
         return {leaf: its for leaf, its in units.items() if leaf not in solution.units}
 
-    def _names(self, tree: Node, leaf: Leaf) -> bool:
-        return isinstance(leaf, str) and any(self.leaf_of.get(id(each)) == leaf for each in leaves(tree))
+    def _names(self, root: tree.Node, leaf: Leaf) -> bool:
+        return isinstance(leaf, str) and any(self.leaf_of.get(id(each)) == leaf for each in tree.leaves(root))
 
     def rewritten(self, units: Mapping[Leaf, Dimension], solution: _Solution) -> Completed:
         """The texts with these units in them."""
         texts: dict[str, str] = {}
         lacking: dict[str, tuple[tuple[str, str], ...]] = {}
-        for owner, tree in self.trees.items():
-            found = [self.leaf_of.get(id(each)) for each in leaves(tree)]
+        for owner, root in self.trees.items():
+            found = [self.leaf_of.get(id(each)) for each in tree.leaves(root)]
             here = {at: units[leaf] for at, leaf in enumerate(found) if leaf is not None and leaf in units}
             if not here:
                 continue
@@ -266,32 +245,32 @@ class _Walk:
     ) -> None:
         self.problem, self.chosen, self.reading, self.equations = problem, chosen, reading, equations
 
-    def of(self, node: Node, owner: str, arguments: Mapping[str, Measured] | None) -> Measured:
+    def of(self, node: tree.Node, owner: str, arguments: Mapping[str, Measured] | None) -> Measured:
         """What `node` of the text of `owner` measures. arguments : of the function, None in the expression itself."""
         match node:
-            case Number():
+            case tree.Number():
                 return self.chosen.get(self.problem.leaf_of[id(node)])
-            case Time():
-                return _known(self.reading.get(TIME))
-            case Signal(path):
+            case tree.Time():
+                return _known(self.reading.get(tree.TIME))
+            case tree.Signal(path):
                 return _known(self.reading.get(path))
-            case Name():
+            case tree.Name():
                 return self.of_name(node, arguments)
-            case Negative(operand):
+            case tree.Negative(operand):
                 return self.of(operand, owner, arguments)
-            case Operation("**", base, exponent):
+            case tree.Operation("**", base, exponent):
                 return self.of_power(base, exponent, owner, arguments)
-            case Operation(symbol, left, right):
+            case tree.Operation(symbol, left, right):
                 first, second = self.of(left, owner, arguments), self.of(right, owner, arguments)
                 return self.of_operation(symbol, (left, first), (right, second), owner)
-            case Call(function, given) if function == LOOKUP:
+            case tree.Call(function, given) if function == tree.LOOKUP:
                 self.of(given[0], owner, arguments)
                 return None
-            case Call(function, given):
+            case tree.Call(function, given):
                 return self.of_call(function, [(each, self.of(each, owner, arguments)) for each in given], owner)
         return None
 
-    def of_name(self, name: Name, arguments: Mapping[str, Measured] | None) -> Measured:
+    def of_name(self, name: tree.Name, arguments: Mapping[str, Measured] | None) -> Measured:
         text, problem = name.text, self.problem
         if name.place == "unit" and text in UNITS:
             return _known(UNITS[text].dimension)
@@ -300,59 +279,63 @@ class _Walk:
         if arguments is None and text in problem.local:
             return _known(self.reading.get(text))
         meant = bind(name, problem.parameters)
-        if isinstance(meant, Signal):
+        if isinstance(meant, tree.Signal):
             return _known(self.reading.get(meant.path))
-        its = meant.dimension if isinstance(meant, Number) else None
+        its = meant.dimension if isinstance(meant, tree.Number) else None
         if its is not None:
             return _known(its)
         leaf = problem.leaf_of.get(id(name))
         return None if leaf is None else self.chosen.get(leaf)
 
-    def of_power(self, base: Node, exponent: Node, owner: str, arguments: Mapping[str, Measured] | None) -> Measured:
+    def of_power(
+        self, base: tree.Node, exponent: tree.Node, owner: str, arguments: Mapping[str, Measured] | None
+    ) -> Measured:
         its, power = self.of(base, owner, arguments), self.of(exponent, owner, arguments)
         self.pure(power)
         if its is None:
             return None
-        if arguments is not None and any(each.text in arguments for each in leaves(exponent) if isinstance(each, Name)):
-            raise ExpressionError("an exponent that is an argument")
+        if arguments is not None and any(
+            each.text in arguments for each in tree.leaves(exponent) if isinstance(each, tree.Name)
+        ):
+            raise tree.ExpressionError("an exponent that is an argument")
         number = bind(exponent, self.problem.parameters, self.problem.local)
-        if varies(number):
-            raise ExpressionError("an exponent that varies")
+        if tree.varies(number):
+            raise tree.ExpressionError("an exponent that varies")
         return _PURE_NUMBER.plus(its, evaluate(number))
 
     def of_operation(self, symbol: str, left: _Part, right: _Part, owner: str) -> Measured:
         first, second = left[1], right[1]
-        if symbol in LOGICAL:
+        if symbol in tree.LOGICAL:
             return None
         if symbol in ("*", "/"):
             if second is None:
                 return first
             return (first or _PURE_NUMBER).plus(second, 1.0 if symbol == "*" else -1.0)
         result = self.same(owner, left, right)
-        return None if symbol in COMPARISONS else result
+        return None if symbol in tree.COMPARISONS else result
 
-    def of_call(self, function: str, parts: list[_Part], owner: str) -> Measured:
+    def of_call(self, function: str, terms: list[_Part], owner: str) -> Measured:
         meant = self.problem.parameters.get(function)
-        if isinstance(meant, Function) and function not in FUNCTIONS:
+        if isinstance(meant, tree.Function) and function not in FUNCTIONS:
             if function not in self.problem.trees:  # a curve, which is of plain numbers
                 return None
-            arguments = dict(zip(meant.arguments, (its for _, its in parts), strict=True))
+            arguments = dict(zip(meant.arguments, (its for _, its in terms), strict=True))
             return self.of(self.problem.trees[function], function, arguments)
         units = FUNCTIONS[function].units
         result = _PURE_NUMBER if units.is_angle else None
         if units.taken:
-            for _, its in parts:
+            for _, its in terms:
                 self.pure(its)
         for group in units.alike:
-            its = self.same(owner, *group.of(parts))
+            its = self.same(owner, *group.of(terms))
             if its is not None and group.exponent:
                 result = (result or _PURE_NUMBER).plus(its, group.exponent)
         return result
 
-    def same(self, owner: str, *parts: _Part) -> Measured:
-        """What all `parts` measure, of which plain ones fit any."""
-        its = next((each for _, each in parts if each is not None), None)
-        for node, each in parts:
+    def same(self, owner: str, *terms: _Part) -> Measured:
+        """What all `terms` measure, of which plain ones fit any."""
+        its = next((each for _, each in terms if each is not None), None)
+        for node, each in terms:
             if each is None:
                 self.problem.wildcards += [(leaf, owner, its) for leaf in _terms(node)]
             elif each is not its and its is not None:
@@ -368,58 +351,60 @@ def _known(its: Dimension | None) -> Measured:
     return None if its is None else _Affine(its)
 
 
-def _terms(node: Node) -> Iterator[Node]:
+def _terms(node: tree.Node) -> Iterator[tree.Node]:
     """The numbers that are added and subtracted in `node`, where it is a sum of numbers."""
     match node:
-        case Negative(operand):
+        case tree.Negative(operand):
             yield from _terms(operand)
-        case Operation("+" | "-", left, right):
+        case tree.Operation("+" | "-", left, right):
             yield from _terms(left)
             yield from _terms(right)
-        case Number():
+        case tree.Number():
             yield node
 
 
-def _with_units(node: Node) -> Iterator[Node]:
+def _with_units(node: tree.Node) -> Iterator[tree.Node]:
     """What has a unit already: the 3 of `3 m`, all of `3/8 in`, the parameter of `L*1 m`."""
     match node:
-        case Operation("*", left, right) if _is_unit(right):
-            factors = list(leaves(left))
-            if all(isinstance(each, Number) for each in factors):
+        case tree.Operation("*", left, right) if _is_unit(right):
+            factors = list(tree.leaves(left))
+            if all(isinstance(each, tree.Number) for each in factors):
                 yield from factors
-            elif isinstance(factors[-1], Number):
+            elif isinstance(factors[-1], tree.Number):
                 yield factors[-1]
             match left:
-                case Operation("*", Name() as parameter, Number(1.0)):
+                case tree.Operation("*", tree.Name() as parameter, tree.Number(1.0)):
                     yield parameter
             yield from _with_units(left)
-        case Operation("**", base, exponent):
-            yield from (each for each in leaves(exponent) if isinstance(each, Number))
+        case tree.Operation("**", base, exponent):
+            yield from (each for each in tree.leaves(exponent) if isinstance(each, tree.Number))
             yield from _with_units(base)
         case _:
-            if isinstance(node, Call) and node.function == LOOKUP:
-                yield from (leaf for each in node.arguments[1:] for leaf in leaves(each) if isinstance(leaf, Number))
-            for part in parts(node):
+            if isinstance(node, tree.Call) and node.function == tree.LOOKUP:
+                yield from (
+                    leaf for each in node.arguments[1:] for leaf in tree.leaves(each) if isinstance(leaf, tree.Number)
+                )
+            for part in tree.parts(node):
                 yield from _with_units(part)
 
 
-def _is_unit(node: Node) -> bool:
+def _is_unit(node: tree.Node) -> bool:
     """Whether `node` is a unit that stands after a number, possibly to a power."""
     match node:
-        case Name(_, place):
+        case tree.Name(_, place):
             return place != "free"
-        case Operation("**", base, _):
+        case tree.Operation("**", base, _):
             return _is_unit(base)
-        case Operation("*" | "/", left, right):
+        case tree.Operation("*" | "/", left, right):
             return _is_unit(left) and _is_unit(right)
     return False
 
 
-def _solutions(problem: _Problem, bound: Node, wanted: tuple[Dimension, ...]) -> Iterator[_Solution]:
+def _solutions(problem: _Problem, bound: tree.Node, wanted: tuple[Dimension, ...]) -> Iterator[_Solution]:
     """Sets of factors, as few as possible, with the units that make the expression right in some reading."""
     candidates = sorted(problem.candidates, key=lambda leaf: problem.candidates[leaf])[:_MOST_CANDIDATES]
     ways = list(islice(readings(bound), _MOST_READINGS)) if candidates else []
-    tries_of_a_size = min(1000, _MOST_STEPS // sum(1 for _ in leaves(bound)))
+    tries_of_a_size = min(1000, _MOST_STEPS // sum(1 for _ in tree.leaves(bound)))
     for count in range(1, MOST + 1):
         tries = product(combinations(candidates, count), ways, wanted or (None,))
         found = False
@@ -434,8 +419,8 @@ def _solutions(problem: _Problem, bound: Node, wanted: tuple[Dimension, ...]) ->
             return
 
 
-def _variables(bound: Node) -> int:
-    return len({each for each in leaves(bound) if isinstance(each, Time | Signal)})
+def _variables(bound: tree.Node) -> int:
+    return len({each for each in tree.leaves(bound) if isinstance(each, tree.Time | tree.Signal)})
 
 
 def _solved(
@@ -505,7 +490,7 @@ def _leaf_tokens(text: str) -> list[int]:
     return [
         at
         for at, token in enumerate(tokens)
-        if token.kind == "number" or (token.kind == "name" and at not in is_call and token.text not in LOGICAL)
+        if token.kind == "number" or (token.kind == "name" and at not in is_call and token.text not in tree.LOGICAL)
     ]
 
 

@@ -18,6 +18,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from nivel.lazy import dataclass
 from nivel.machine.given import OneNumber, ThreeNumbers
+from nivel.machine.units import tree
 from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, PLACE, bind, evaluate, given
 from nivel.machine.units.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle
 from nivel.machine.units.grammar import parse
@@ -25,16 +26,6 @@ from nivel.machine.units.measure import Reading, measure, refuse_unlike_terms
 from nivel.machine.units.plain_factors import completed, with_bodies
 from nivel.machine.units.shared_names import shared_names_hint
 from nivel.machine.units.slips import in_kelvin, is_time_meant, slip
-from nivel.machine.units.tree import (
-    ExpressionError,
-    FaultyParameterError,
-    Function,
-    Node,
-    Parameters,
-    UnknownNameError,
-    signals,
-    varies,
-)
 from nivel.words.arguments import plain
 from nivel.words.wording import shown
 
@@ -64,22 +55,22 @@ def reported() -> PydanticCustomError:
     return PydanticCustomError(REPORTED, "follows from another fault")
 
 
-def parameters_of(info: ValidationInfo) -> Parameters:
+def parameters_of(info: ValidationInfo) -> tree.Parameters:
     """The parameters of the machine file being read; none where records are made in Python."""
     return (info.context or {}).get("parameters", {})
 
 
-def bound_tree(text: str, parameters: Parameters, local: Collection[str] = ()) -> Node:
+def bound_tree(text: str, parameters: tree.Parameters, local: Collection[str] = ()) -> tree.Node:
     """The tree of `text` with parameters, constants, units and `local` symbols put in.
 
     Raises ExpressionError, FaultyParameterError.
     """
     try:
         return bind(parse(text), parameters, local)
-    except UnknownNameError as problem:
+    except tree.UnknownNameError as problem:
         if problem.name not in LOCAL_SYMBOLS or problem.name in PLACE:
             raise
-        raise ExpressionError(f"{problem} (only the `law` of a spring knows its `{problem.name}`)") from None
+        raise tree.ExpressionError(f"{problem} (only the `law` of a spring knows its `{problem.name}`)") from None
 
 
 def kinds_of(kind: Kind) -> tuple[str, ...]:
@@ -105,10 +96,10 @@ def check_kind(text: str, its: Dimension | None, kind: Kind) -> None:
     if "" in clashes or not clashes:
         return
     if "turns" in clashes:
-        raise ExpressionError(
+        raise tree.ExpressionError(
             f"`{text}` counts turns; {expected_kind(kind)} was expected: write `rev/s`, `rpm` or `rad/s`"
         )
-    raise ExpressionError(f"`{text}` is {described(its)}; {expected_kind(kind)} was expected")
+    raise tree.ExpressionError(f"`{text}` is {described(its)}; {expected_kind(kind)} was expected")
 
 
 def _clash(its: Dimension | None, wanted: Dimension) -> Literal["", "other", "turns"]:
@@ -137,7 +128,7 @@ class FunctionFault:
         return f"{self.head}: {self.body}"
 
 
-class LackingUnitError(ExpressionError):
+class LackingUnitError(tree.ExpressionError):
     """Plain numbers of an expression, or of functions that it calls, lack units; the message has the line to write.
 
     functions : those that have to change, by name
@@ -149,15 +140,15 @@ class LackingUnitError(ExpressionError):
 
 
 def lacking_unit(
-    problem: ExpressionError,
+    problem: tree.ExpressionError,
     text: str,
     kind: Kind,
-    parameters: Parameters,
+    parameters: tree.Parameters,
     local: Collection[str],
-    accepts: Callable[[str, Parameters], None],
+    accepts: Callable[[str, tree.Parameters], None],
     *,
     constant: bool = False,
-) -> ExpressionError:
+) -> tree.ExpressionError:
     """`problem` of the expression `text`, with the line to write where it is that plain numbers lack units.
 
     accepts : raises ExpressionError for a text that is still wrong
@@ -172,7 +163,7 @@ def lacking_unit(
     faults: dict[str, FunctionFault] = {}
     for name, body in answer.bodies.items():
         function = parameters[name]
-        assert isinstance(function, Function)
+        assert isinstance(function, tree.Function)
         message = f"{why}, where it is called: {_lacking(answer.lacking[name])}"
         faults[name] = FunctionFault(function.head, message, body)
     if "" in answer.lacking:
@@ -183,12 +174,12 @@ def lacking_unit(
     return LackingUnitError(message, faults)
 
 
-def _why(text: str, kind: Kind, parameters: Parameters, local: Collection[str], reading: Reading) -> str:
+def _why(text: str, kind: Kind, parameters: tree.Parameters, local: Collection[str], reading: Reading) -> str:
     """Why `text` does not fit with its variables taken as in `reading`."""
     try:
         its = measure(bound_tree(text, parameters, local), reading)
         check_kind(text, its, kind)
-    except ExpressionError as problem:
+    except tree.ExpressionError as problem:
         start = f"`{text}` is "
         return f"this is {str(problem).removeprefix(start)}" if str(problem).startswith(start) else str(problem)
     return ""
@@ -200,71 +191,73 @@ def _lacking(factors: tuple[tuple[str, str], ...]) -> str:
     return " and ".join([f"`{name}` lacks the unit {unit}", *(f"`{each}` the unit {its}" for each, its in others)])
 
 
-def read_quantity(value: object, kind: Kind, parameters: Parameters) -> float:
+def read_quantity(value: object, kind: Kind, parameters: tree.Parameters) -> float:
     """`value` as a finite SI number of `kind`, of no more than LARGEST but for times and lengths, of which others judge.
 
     Raises ExpressionError, FaultyParameterError.
     """
     number = _read_number(value, kind, parameters)
     if abs(number) > LARGEST and kind != ANY and not {"time", "length"} & set(kinds_of(kind)):
-        raise ExpressionError(f"{number:.3g} is more than the limit of {LARGEST:.0e}, in SI units: a slip of a unit?")
+        raise tree.ExpressionError(
+            f"{number:.3g} is more than the limit of {LARGEST:.0e}, in SI units: a slip of a unit?"
+        )
     return number
 
 
-def _read_number(value: object, kind: Kind, parameters: Parameters) -> float:
+def _read_number(value: object, kind: Kind, parameters: tree.Parameters) -> float:
     value = plain(value)
     if isinstance(value, str):
         refuse_celsius(value, kind)
-        tree = constant_tree(value, parameters)
+        root = constant_tree(value, parameters)
         try:
-            its = measure(tree)
-            number = evaluate(tree)
+            its = measure(root)
+            number = evaluate(root)
             check_kind(value.strip(), its, kind)
-        except ExpressionError as problem:
+        except tree.ExpressionError as problem:
             accepts = partial(_check_constant, kind)
             raise lacking_unit(problem, value.strip(), kind, parameters, (), accepts, constant=True) from None
         return number
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
         return given(value)
-    raise ExpressionError(f"{expected_kind(kind)} was expected, got {shown(value)}")
+    raise tree.ExpressionError(f"{expected_kind(kind)} was expected, got {shown(value)}")
 
 
 def refuse_celsius(text: str, kind: Kind) -> None:
     """Raises ExpressionError where a temperature is not absolute."""
     if "temperature" in kinds_of(kind) and (meant := in_kelvin(text)):
-        raise ExpressionError(f"temperatures are absolute: in place of `{text.strip()}` write `{meant}`")
+        raise tree.ExpressionError(f"temperatures are absolute: in place of `{text.strip()}` write `{meant}`")
 
 
-def _check_constant(kind: Kind, text: str, parameters: Parameters) -> None:
+def _check_constant(kind: Kind, text: str, parameters: tree.Parameters) -> None:
     """Raises ExpressionError where `text` is no quantity of `kind`."""
-    tree = constant_tree(text, parameters)
-    check_kind(text, measure(tree), kind)
-    evaluate(tree)
+    root = constant_tree(text, parameters)
+    check_kind(text, measure(root), kind)
+    evaluate(root)
 
 
-def constant_tree(text: str, parameters: Parameters) -> Node:
+def constant_tree(text: str, parameters: tree.Parameters) -> tree.Node:
     """The tree of `text`, in which nothing may vary.
 
     Raises ExpressionError, FaultyParameterError.
     """
-    tree = bound_tree(text, parameters)
-    if signals(tree):
-        raise ExpressionError(
-            f"`{signals(tree)[0]}` may only be used where a value may vary: in forces, couplings of `type: function`, states, "
+    root = bound_tree(text, parameters)
+    if tree.signals(root):
+        raise tree.ExpressionError(
+            f"`{tree.signals(root)[0]}` may only be used where a value may vary: in forces, couplings of `type: function`, states, "
             "sensors and events"
         )
-    if varies(tree):
-        raise ExpressionError(
+    if tree.varies(root):
+        raise tree.ExpressionError(
             "`time` may only be used where a value may vary: in forces, drivers, states, sensors and events"
         )
-    return tree
+    return root
 
 
 class PlainVolume(float):
     """A volume per angle that was given as a volume, as `28 cm^3` where `28 cm^3/rev` may be meant: it counts as per radian."""
 
 
-def _is_plain_volume(value: object, parameters: Parameters) -> bool:
+def _is_plain_volume(value: object, parameters: tree.Parameters) -> bool:
     """Whether a volume per angle is given in units of a volume, by a round number; 28/(2*pi) of them is one that was converted."""
     if not isinstance(value, str):
         return isinstance(value, PlainVolume)
@@ -282,9 +275,9 @@ class Quantity:
     def read(self, value: Any, info: ValidationInfo) -> float:
         try:
             number = read_quantity(value, self.kind, parameters_of(info))
-        except FaultyParameterError:
+        except tree.FaultyParameterError:
             raise reported() from None
-        except ExpressionError as problem:
+        except tree.ExpressionError as problem:
             raise expression_fault(problem, value, parameters_of(info)) from None
         if self.positive and number <= 0:
             instead = MASSLESS if self.kind == "mass" and number == 0 else ""
@@ -309,7 +302,7 @@ class Quantity:
 
 
 def expression_fault(
-    problem: ExpressionError, value: object, parameters: Parameters | None = None
+    problem: tree.ExpressionError, value: object, parameters: tree.Parameters | None = None
 ) -> PydanticCustomError:
     """`problem` with the text that it is in, unless the message shows it already. parameters : that the text may name"""
     message = str(problem)
@@ -327,12 +320,12 @@ def of_one_kind(value: Any, info: ValidationInfo) -> Any:
     """`value` as it is, unless it is an expression that adds or compares unlike things, as `1 m - boom.angle` does: a fault."""
     if isinstance(value, str):
         try:
-            tree = bound_tree(value, parameters_of(info))
-        except (ExpressionError, FaultyParameterError):
+            root = bound_tree(value, parameters_of(info))
+        except (tree.ExpressionError, tree.FaultyParameterError):
             return value  # reported where the text is read
         try:
-            refuse_unlike_terms(tree)
-        except ExpressionError as problem:
+            refuse_unlike_terms(root)
+        except tree.ExpressionError as problem:
             raise expression_fault(problem, value, parameters_of(info)) from None
     return value
 

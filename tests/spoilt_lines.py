@@ -108,7 +108,7 @@ NAMED = [
     Spoilt("geometric stabilisation: the factor", "integrate/loop/energy.py", "np.sqrt(1.0 + missing / kinetic)",
              "1.0 + missing / kinetic",
              verification("geometric")),
-    Spoilt("events: sides are kept", "integrate/loop/events.py", "now != 0.0 else -values[SIDE, k]",
-             "now != 0.0 else values[SIDE, k]",
+    Spoilt("events: sides are kept", "integrate/loop/events.py", "now != 0.0 else -values[of_run.SIDE, k]",
+             "now != 0.0 else values[of_run.SIDE, k]",
              verification("events")),
 ]  # fmt: skip

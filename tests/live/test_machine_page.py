@@ -109,6 +109,24 @@ def test_a_page_computes_what_live_operation_does(pendulum, tmp_path):
     compare(machine, written.path, tmp_path)
 
 
+@pytest.mark.compiles
+def test_a_page_with_another_value_is_that_of_the_machine_with_it(pendulum, tmp_path):
+    machine, _ = pendulum
+    written = nivel.export_page(machine, tmp_path / "page.html", parameters=["bodies.bob.mass"])
+    assert written.parameters == ("bodies.bob.mass",)
+    script = [
+        {"type": "adjust", "parameter": 0, "value": 3.5},
+        {"type": "command", "word": "pause", "number": 0},
+        {"ticks": 300},
+    ]
+    names, rows, status = after(written.path, script, tmp_path)
+    frame = here(machine.with_values({"bodies.bob.mass": 3.5}), [([0.0], 300)])
+    assert status["light"] == "green"
+    places = [k for k, name in enumerate(names) if ".position." in name or "energy" in name]
+    assert rows[-1][places] == pytest.approx(frame[places], abs=1e-9)
+    assert rows[-1][places] != pytest.approx(here(machine, [([0.0], 300)])[places], abs=1e-3)
+
+
 @pytest.mark.full
 @pytest.mark.compiles
 @pytest.mark.parametrize("demo", ["four-bar", "loader-crane", "harbour-crane"])

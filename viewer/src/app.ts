@@ -144,7 +144,7 @@ export class App {
       this.trails = new Trails(this.actor, content.traced, content.gauges.length);
       this.world.scene.add(this.trails.root);
       this.actor.show("signs", false);
-      const live = new Live(content.controls, content.gauges, (message) => connection.send(message), alone);
+      const live = new Live(content.controls, content.gauges, (message) => connection.send(message), alone, content.parameters);
       const hand = new Hand(this.world, this.actor, (message) => {
         if (message.on && !live.operator.driving) live.take(true);
         connection.send(message);

@@ -138,8 +138,9 @@ class InputPlace:
 
 @dataclass(frozen=True)
 class Exported:
-    """A machine prepared for a run of fixed steps without an end. outputs : the time first."""
+    """A machine prepared for a run of fixed steps without an end. what : it becomes, for messages. outputs : the time first."""
 
+    what: str
     plan: Plan
     prepared: Prepared
     loop: Loop
@@ -240,7 +241,7 @@ def export(plan: Plan, what: str, select: Sequence[str] = ()) -> Exported:
         for each, function in zip(plan.machine.inputs, prepared.motion.system.input_functions, strict=True)
     )
     failures = tuple(failures_of(prepared.motion.system))
-    return Exported(plan, prepared, loop, image, entries, outputs, inputs, failures)
+    return Exported(what, plan, prepared, loop, image, entries, outputs, inputs, failures)
 
 
 def refusal(message: str) -> ModelError:

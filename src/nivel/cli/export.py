@@ -49,7 +49,7 @@ def file_option(name: str, text: str) -> Any:
     "parameters",
     multiple=True,
     metavar="PATH",
-    help="A number of the machine that can be set in the FMU, e.g. bodies.crank.mass. May be repeated.",
+    help="A number of the machine that can be set in the FMU or page, e.g. bodies.crank.mass. May be repeated.",
 )
 @click.option(
     "--platform",
@@ -98,8 +98,8 @@ def command(
             "one of --csv, --mat, --parquet, --mdf, --mcap, --gltf, --c, --fmu, --page, --mjcf and --urdf is written at a time"
         )
     form, given = wanted.popitem() if wanted else ("", "")
-    if form != "fmu" and (fmi or parameters):
-        raise click.UsageError("--fmi and --parameter belong to --fmu")
+    if form != "fmu" and (fmi or (parameters and form != "page")):
+        raise click.UsageError("--fmi belongs to --fmu, and --parameter to --fmu and --page")
     if platforms and (len(platforms) > 1 if form == "c" else form != "fmu"):
         raise click.UsageError("--platform belongs to --fmu, or once to --c")
     if form == "c" and force:
@@ -116,7 +116,7 @@ def command(
         options = {"fmi": int(fmi or 3), "select": names, "parameters": parameters, "platforms": platforms}
         _write_fmu(nivel.api.load(source, overrides), path, options, force)
     elif form == "page":
-        _write_page(nivel.api.load(source, overrides), path, force)
+        _write_page(nivel.api.load(source, overrides), path, parameters, force)
     elif form in ("mjcf", "urdf"):
         loaded = nivel.api.load(source, overrides)
         if notes := (loaded.export_urdf if form == "urdf" else loaded.export_mjcf)(path, force=force):
@@ -156,11 +156,14 @@ def _write_fmu(machine: Machine, path: Path, options: dict[str, Any], force: boo
     click.echo(f"FMU: {written.path}, {version} for {systems}, {counts}, {size:.0f} kB", err=True)
 
 
-def _write_page(machine: Machine, path: Path, force: bool) -> None:
+def _write_page(machine: Machine, path: Path, parameters: tuple[str, ...], force: bool) -> None:
     with nivel.cli.progress.progress_listener(False) as listener:
-        written = nivel.live.opening.export_page(machine, path, force=force, listener=listener)
+        written = nivel.live.opening.export_page(machine, path, parameters=parameters, force=force, listener=listener)
     size = written.path.stat().st_size / 1000
-    click.echo(f"page: {written.path}, {len(written.inputs)} inputs, {size:.0f} kB; any browser opens it", err=True)
+    click.echo(
+        f"page: {written.path}, {len(written.inputs)} inputs, {len(written.parameters)} parameters, {size:.0f} kB; any browser opens it",
+        err=True,
+    )
     click.echo("not verified: the errors of its steps were not examined; `nivel run` estimates them", err=True)
 
 

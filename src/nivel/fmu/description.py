@@ -11,7 +11,7 @@ import numpy as np
 
 import nivel
 from nivel.c_library.exported import Exported, Output
-from nivel.fmu.parameters import Followed
+from nivel.c_library.parameters import Followed
 from nivel.machine.units.dimension import BASES
 from nivel.machine.units.unit import UnknownUnitError, unit
 

@@ -16,10 +16,10 @@ from pathlib import Path
 
 from nivel.analysis.gradients.outputs import Parameter
 from nivel.c_library.exported import Exported, refusal
+from nivel.c_library.parameters import Followed, Vary, follow
 from nivel.c_library.writer import PLATFORMS, Platform, known_platform, object_codes, this_platform
 from nivel.files.target import written
 from nivel.fmu.description import description, machine_data, variables_of
-from nivel.fmu.parameters import Followed, Vary, follow
 from nivel.lazy import dataclass
 from nivel.native import shipped, store
 from nivel.native.workers import CompilationError

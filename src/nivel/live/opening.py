@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any, Unpack
 
+from nivel.analysis.gradients.outputs import parameters_of
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.progress.log import Listener
 from nivel.api import Machine
+from nivel.c_library.exported import Exported, export
+from nivel.c_library.parameters import follow
 from nivel.errors import ModelError
 from nivel.files.target import check_target
 from nivel.integrate.loop.paced import drive
@@ -65,21 +68,32 @@ def export_page(
     path: str | os.PathLike[str],
     *,
     tick: float | None = None,
+    parameters: Sequence[str] | str = (),
     force: bool = False,
     listener: Listener | None = None,
     **settings: Unpack[StepSettingsDict],
 ) -> LivePage:
     """Write one HTML file in which the machine lives, to be operated as in `nivel live`, without Python, a server or a network.
 
-    tick : time between two readings of the inputs [s], a whole number of steps; by default 1 ms, or a longer step. force : replace an
-    existing file. settings : of the run, as in `Machine.start`.
-    Raises ModelError where the integrator chooses its steps, a Python law or foreign code takes part, or the file is there already.
+    tick : time between two readings of the inputs [s], a whole number of steps; by default 1 ms, or a longer step. parameters : numbers of
+    the machine by path, which the page changes by sliders, as of `Machine.export_fmu`. force : replace an existing file. settings : of the
+    run, as in `Machine.start`.
+    Raises ModelError where the integrator chooses its steps, a Python law or foreign code takes part, a parameter cannot be varied, or the
+    file is there already.
     """
     target = Path(os.fspath(path))
     check_target(target, "page", force=force, sources=[Path(machine.origin.file)] if machine.origin.file else [])
     with _planned(machine := machine.with_settings(settings), settings, tick) as (plan, pace):
         build([*run_entries(plan), drive], listener)
-        return write_live_page(plan, pace, target)
+        if not parameters:
+            return write_live_page(plan, pace, target)
+        given = parameters_of(machine, [parameters] if isinstance(parameters, str) else parameters, "a page")
+        same = {**settings, "integrator": plan.settings.integrator}
+
+        def varied(changes: Mapping[str, float]) -> Exported:
+            return export(live_plan(machine.with_values(changes).record, same, tick)[0], "a page")
+
+        return write_live_page(plan, pace, target, follow(given, export(plan, "a page"), varied))
 
 
 @contextmanager

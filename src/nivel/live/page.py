@@ -12,7 +12,8 @@ from nivel.analysis.plan.compilation import run_entries
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.c_library.exported import FRAMES_KEPT, failures_of, refusal
-from nivel.c_library.image import Image, UnknownAddressError
+from nivel.c_library.image import WORD, Image, UnknownAddressError
+from nivel.c_library.parameters import Followed, memory_of
 from nivel.files.target import write_file
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.paced import SHOWN, TICKS, Live, drive
@@ -37,7 +38,9 @@ from nivel.results.scales import ENERGY_FLOOR, REST, machine_size, reaches, weig
 from nivel.system.layout import FrameLayout
 from nivel.view import local
 from nivel.view.page import page_with_machine
+from nivel.view.records import Parameter
 
+LARGEST = 1e300
 TAPE_ROWS, FRAME_ROWS = 4, 64  # of the rings: a page reads frames after every turn, and keeps no tape
 
 
@@ -56,20 +59,22 @@ class _Codes:
 
 
 class LivePage(NamedTuple):
-    """What was written. inputs : that the page moves. kernels : bytes of machine code. verified : no; the errors of its steps were not
-    examined."""
+    """What was written. inputs, parameters : that the page changes. kernels : bytes of machine code. verified : no; the errors of its steps
+    were not examined."""
 
     path: Path
     inputs: tuple[str, ...]
+    parameters: tuple[str, ...]
     kernels: int
     verified: bool = False
 
 
-def write_live_page(plan: Plan, pace: Pace, path: Path) -> LivePage:
-    """Write the page of a live machine, which replaces an existing file. plan, pace : of `live_plan`.
+def write_live_page(plan: Plan, pace: Pace, path: Path, followed: Followed | None = None) -> LivePage:
+    """Write the page of a live machine, which replaces an existing file. plan, pace : of `live_plan`. followed : its parameters.
 
     Raises ModelError where a Python law or foreign code takes part, or the machine cannot be assembled.
     """
+    plan = plan if followed is None else followed.machine.plan
     run = _short(prepared_run(plan, pace))
     layout, inputs = run.prepared.motion.system.layout, plan.machine.inputs[:-HAND_INPUTS]
     sizes = Sizes(*run.sizes[:2], TAPE_ROWS, FRAME_ROWS)
@@ -78,7 +83,8 @@ def write_live_page(plan: Plan, pace: Pace, path: Path) -> LivePage:
     run.show(live)
     frame = live.frames[0].copy()
     attributes = run_attributes(plan.machine, "", run.prepared, plan.settings)
-    picture = Picture(attributes, layout, frame, inputs, plan.machine.sensors)
+    parameters = () if followed is None else followed.parameters
+    picture = Picture(attributes, layout, frame, inputs, plan.machine.sensors, _sliders(followed))
     entries = {each.symbol: each for each in (*run_entries(plan), drive, observe)}
     image = _image(run, session, [*entries.values()])
     codes = _Codes()
@@ -91,6 +97,7 @@ def write_live_page(plan: Plan, pace: Pace, path: Path) -> LivePage:
         tick=pace.tick,
         session=_session(live, image),
         inputs=[local.LocalInput(each.name, each.rest_value) for each in inputs],
+        parameters=_follow(run, image, followed),
         bodies=len(plan.machine.bodies),
         picture=_columns_of(picture),
         failures=[
@@ -108,7 +115,12 @@ def write_live_page(plan: Plan, pace: Pace, path: Path) -> LivePage:
     module = wasm.linked(wasm.needed([wasm.read_object(each) for each in objects.values()], wasm.library()))
     text = json.dumps(asdict(machine), separators=(",", ":"), allow_nan=False).encode()
     html = page_with_machine(plan.machine.name, picture.package, text, image.words.tobytes(), module)
-    return LivePage(write_file(path, "page", html), tuple(each.name for each in inputs), len(module))
+    return LivePage(
+        write_file(path, "page", html),
+        tuple(each.name for each in inputs),
+        tuple(each.path for each in parameters),
+        len(module),
+    )
 
 
 def _short(run: LiveRun) -> LiveRun:
@@ -125,6 +137,30 @@ def _image(run: LiveRun, session: Handle, entries: list[Entry]) -> Image:
         return Image(handles, {each.address: each.symbol for each in entries})
     except UnknownAddressError:
         raise refusal("Python laws cannot go into a page; write them as expressions") from None
+
+
+def _sliders(followed: Followed | None) -> list[Parameter]:
+    if followed is None:
+        return []
+    rows = zip(followed.parameters, followed.least, strict=True)
+    return [Parameter(each.path, each.units, each.value, max(least, -LARGEST)) for each, least in rows]
+
+
+def _follow(run: LiveRun, image: Image, followed: Followed | None) -> local.LocalParameters:
+    """The numbers of the page that follow from parameters, as those of the machine that was exported do; they are put into the image."""
+    energy = image.byte_of(run.loop.machine.record.control.energy.ctypes.data)
+    if followed is None or (numbers := followed.numbers) is None:
+        return local.LocalParameters([], [], [], energy)
+    addresses = memory_of(run.prepared, run.loop).addresses[numbers.places]
+    words = [image.byte_of(int(each)) // WORD for each in addresses]
+    image.words[words] = followed.machine.image.words[followed.words]
+    terms: list[list[tuple[int, list[float], list[float]]]] = [[] for _ in words]
+    for number, k in followed.terms:
+        terms[number].append((k, numbers.factors[number, k].tolist(), numbers.divisors[number, k].tolist()))
+    laws = (numbers.constants.tolist(), numbers.powers.tolist(), numbers.signs.tolist())
+    rows = [local.LocalNumber(*each) for each in zip(words, *laws, terms, strict=True)]
+    frames = [*zip(numbers.centres.tolist(), numbers.widths.tolist(), strict=True)]
+    return local.LocalParameters(rows, [each.value for each in followed.parameters], frames, energy)
 
 
 def _loop(run: LiveRun, session: Handle, image: Image, codes: _Codes) -> local.LocalLoop:

@@ -14,7 +14,7 @@ from nivel.machine.signals.sensor import Sensor
 from nivel.system.layout import FrameLayout, Variable
 from nivel.view import frames
 from nivel.view.package import Block, to_bytes
-from nivel.view.records import PROTOCOL, Control, Gauge, Package
+from nivel.view.records import PROTOCOL, Control, Gauge, Package, Parameter
 from nivel.view.sources import machine_stage
 from nivel.words.wording import label_of
 
@@ -34,8 +34,9 @@ class Picture:
         frame: Array,
         inputs: Sequence[Input],
         sensors: Sequence[Sensor],
+        parameters: Sequence[Parameter] = (),
     ) -> None:
-        """attributes, layout : of the run, as a result has them. frame : the first one. inputs : that the page moves."""
+        """attributes, layout : of the run, as a result has them. frame : the first one. inputs, parameters : that the page changes."""
         scene, record, block = json.loads(attributes["scene"]), json.loads(attributes["machine_record"]), Block()
         self.places = Places(layout)
         stage = machine_stage(str(attributes["machine"]), scene, record, block, self.places.pose(frame))
@@ -45,7 +46,7 @@ class Picture:
         self.columns = [variable.columns.start for _, variable in watched]
         shown = [gauge(name, variable.units, by_name) for name, variable in watched]
         controls = [control(each) for each in inputs]
-        self.package = to_bytes(Package(PROTOCOL, "live", [stage], controls, shown, self.traced), block)
+        self.package = to_bytes(Package(PROTOCOL, "live", [stage], controls, shown, self.traced, [*parameters]), block)
 
     def row(self, frame: Array) -> Array:
         """What the page draws."""

@@ -59,6 +59,29 @@ class LocalInput:
 
 
 @dataclass(frozen=True)
+class LocalNumber:
+    """A word y of the memory that follows from parameters: y = sign |z|^power, or z where power is 1, with z = constant + Σ P(t)/Q(t).
+    terms : (parameter, factors of the powers of t in P, those in Q); t = (x - centre)/width of the parameter x."""
+
+    word: int
+    constant: float
+    power: float
+    sign: float
+    terms: list[tuple[int, list[float], list[float]]]
+
+
+@dataclass(frozen=True)
+class LocalParameters:
+    """Numbers that follow from parameters, which a page changes at the start. values : of the parameters. frames : centre and width of
+    each. energy : place of the energies at the start."""
+
+    numbers: list[LocalNumber]
+    values: list[float]
+    frames: list[tuple[float, float]]
+    energy: int
+
+
+@dataclass(frozen=True)
 class LocalFailure:
     """A status that ends a run, and what is said of it, with {} for one of the names."""
 
@@ -129,6 +152,7 @@ class LocalMachine:
     loop: LocalLoop
     session: LocalSession
     inputs: list[LocalInput]
+    parameters: LocalParameters
     bodies: int
     picture: LocalPicture
     names: list[str]

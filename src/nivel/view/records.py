@@ -476,10 +476,20 @@ class Gauge:
 
 
 @dataclass(frozen=True)
+class Parameter:
+    """A number of a machine that is in the page, which may be changed before it begins. least : the smallest value that it takes."""
+
+    name: str
+    unit: str
+    value: float
+    least: float
+
+
+@dataclass(frozen=True)
 class Package:
     """All that the page shows. mode : playback of whole motions, a machine moved by hand, or frames as they come.
 
-    stages : the first is the machine, others are drawn as ghosts over it. controls, gauges : of a live machine.
+    stages : the first is the machine, others are drawn as ghosts over it. controls, gauges, parameters : of a live machine.
 
     traced : numbers of the bodies whose markers leave their paths in the picture of a live machine. Such a one is sampled at equal times,
     however many frames a page shows. A sample is its time, the gauges, 7 numbers of each of these bodies as in a frame, and the modal
@@ -492,6 +502,7 @@ class Package:
     controls: list[Control] = field(default_factory=list)
     gauges: list[Gauge] = field(default_factory=list)
     traced: list[int] = field(default_factory=list)
+    parameters: list[Parameter] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -621,5 +632,15 @@ class Command:
     number: float
 
 
+@dataclass(frozen=True)
+class Adjust:
+    """From the page, where the machine is in it: another value of a parameter, with which the machine begins anew."""
+
+    type: Literal["adjust"]
+    parameter: int
+    value: float
+
+
 FROM_SERVER: Final = (Note, Moved, Refused, Status)
 FROM_PAGE: Final = (Shown, Want, Move, Reset, Drive, Hold, Take, Command)
+WITHIN_PAGE: Final = (Adjust,)

@@ -23,7 +23,7 @@ def typescript() -> str:
     for record in (*vars(records).values(), *vars(local).values()):
         if isinstance(record, type) and is_dataclass(record):
             lines += ["", *_interface(record)]
-    for name, members in (("FromServer", records.FROM_SERVER), ("FromPage", records.FROM_PAGE)):
+    for name, members in (("FromServer", records.FROM_SERVER), ("FromPage", records.FROM_PAGE + records.WITHIN_PAGE)):
         lines += ["", f"export type {name} = {' | '.join(member.__name__ for member in members)};"]
     return "\n".join([*lines, ""])
 

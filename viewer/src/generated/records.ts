@@ -309,7 +309,15 @@ export interface Gauge {
   limit: number | null;
 }
 
-/** All that the page shows. mode : playback of whole motions, a machine moved by hand, or frames as they come. stages : the first is the machine, others are drawn as ghosts over it. controls, gauges : of a live machine. traced : numbers of the bodies whose markers leave their paths in the picture of a live machine. Such a one is sampled at equal times, however many frames a page shows. A sample is its time, the gauges, 7 numbers of each of these bodies as in a frame, and the modal coordinates. */
+/** A number of a machine that is in the page, which may be changed before it begins. least : the smallest value that it takes. */
+export interface Parameter {
+  name: string;
+  unit: string;
+  value: number;
+  least: number;
+}
+
+/** All that the page shows. mode : playback of whole motions, a machine moved by hand, or frames as they come. stages : the first is the machine, others are drawn as ghosts over it. controls, gauges, parameters : of a live machine. traced : numbers of the bodies whose markers leave their paths in the picture of a live machine. Such a one is sampled at equal times, however many frames a page shows. A sample is its time, the gauges, 7 numbers of each of these bodies as in a frame, and the modal coordinates. */
 export interface Package {
   protocol: number;
   mode: "playback" | "machine" | "live";
@@ -317,6 +325,7 @@ export interface Package {
   controls: Control[];
   gauges: Gauge[];
   traced: number[];
+  parameters: Parameter[];
 }
 
 /** From the server: a sentence for the user. */
@@ -413,6 +422,13 @@ export interface Command {
   number: number;
 }
 
+/** From the page, where the machine is in it: another value of a parameter, with which the machine begins anew. */
+export interface Adjust {
+  type: "adjust";
+  parameter: number;
+  value: number;
+}
+
 /** What the loop is called with. Codes are numbers in `LocalMachine.codes`, the others places. drive, advance, evaluate, correct, step, observe : codes. machine, history, session : records. y, rate, clock, counter : arrays of the history, `count` numbers in y and rate; time, accepted : numbers in clock. failed : what the last failure names. */
 export interface LocalLoop {
   drive: number;
@@ -451,6 +467,23 @@ export interface LocalSession {
 export interface LocalInput {
   name: string;
   rest: number;
+}
+
+/** A word y of the memory that follows from parameters: y = sign |z|^power, or z where power is 1, with z = constant + Σ P(t)/Q(t). terms : (parameter, factors of the powers of t in P, those in Q); t = (x - centre)/width of the parameter x. */
+export interface LocalNumber {
+  word: number;
+  constant: number;
+  power: number;
+  sign: number;
+  terms: [number, number[], number[]][];
+}
+
+/** Numbers that follow from parameters, which a page changes at the start. values : of the parameters. frames : centre and width of each. energy : place of the energies at the start. */
+export interface LocalParameters {
+  numbers: LocalNumber[];
+  values: number[];
+  frames: [number, number][];
+  energy: number;
 }
 
 /** A status that ends a run, and what is said of it, with {} for one of the names. */
@@ -502,6 +535,7 @@ export interface LocalMachine {
   loop: LocalLoop;
   session: LocalSession;
   inputs: LocalInput[];
+  parameters: LocalParameters;
   bodies: number;
   picture: LocalPicture;
   names: string[];
@@ -515,4 +549,4 @@ export interface LocalMachine {
 
 export type FromServer = Note | Moved | Refused | Status;
 
-export type FromPage = Shown | Want | Move | Reset | Drive | Hold | Take | Command;
+export type FromPage = Shown | Want | Move | Reset | Drive | Hold | Take | Command | Adjust;

@@ -17,6 +17,9 @@ export class Kernels {
   private readonly clock: Float64Array;
   private readonly counter: BigInt64Array;
   private readonly failed: Uint32Array;
+  private readonly numbers: Float64Array; // the words as numbers
+  private readonly energy: Float64Array;
+  private readonly parameters: number[];
   private readonly base: number;
   private readonly first: number; // code 0 in the table
   private readonly functions: Code[];
@@ -52,6 +55,9 @@ export class Kernels {
     this.counter = new BigInt64Array(buffer, at(loop.counter), 16);
     this.failed = new Uint32Array(buffer, at(loop.failed), 1);
     this.frames = [...Array(session.rows).keys()].map((row) => new Float64Array(buffer, at(session.frames) + 8 * session.width * row, session.width));
+    this.numbers = new Float64Array(buffer, this.base, machine.bytes / 8);
+    this.energy = new Float64Array(buffer, at(machine.parameters.energy), 3);
+    this.parameters = [...machine.parameters.values];
     this.start = this.words.slice();
   }
 
@@ -66,8 +72,33 @@ export class Kernels {
   }
 
   /** Back to a state, or to the start. */
-  restore(state: BigUint64Array = this.start): void {
-    this.words.set(state);
+  restore(state?: BigUint64Array): void {
+    this.words.set(state ?? this.start);
+    if (state || !this.follow()) return;
+    // energies are referred to those at the start, which parameters have changed
+    this.observe();
+    const [kinetic, potential] = this.energy;
+    this.words.set(this.start);
+    this.follow();
+    this.energy.set([kinetic!, potential!, kinetic! + potential!]);
+  }
+
+  /** Another value of a parameter, from the next start on. */
+  adjust(parameter: number, value: number): void {
+    this.parameters[parameter] = value;
+  }
+
+  /** Put the numbers that follow from parameters which are not at their defaults; whether there are any. */
+  private follow(): boolean {
+    const { numbers, values, frames } = this.machine.parameters;
+    const t = frames.map(([centre, width], k) => (this.parameters[k]! - centre) / width);
+    const changed = this.parameters.map((value, k) => value !== values[k]);
+    for (const { word, constant, power, sign, terms } of numbers) {
+      if (!terms.some(([k]) => changed[k])) continue;
+      const z = terms.reduce((sum, [k, above, below]) => sum + polynomial(above, t[k]!) / polynomial(below, t[k]!), constant);
+      this.numbers[word] = power === 1 ? z : sign * Math.abs(z) ** power;
+    }
+    return changed.some(Boolean);
   }
 
   /** Values of the inputs at the end of the last tick. */
@@ -100,16 +131,21 @@ export class Kernels {
 
   /** Put a frame of the present state into the ring, and leave no trace of it in the run. */
   show(): void {
+    const before = this.words.slice(), row = this.observe(), kept = row.slice();
+    this.words.set(before);
+    row.set(kept);
+    this.control[this.machine.session.shown]! += 1n;
+  }
+
+  /** Write the present state into the next frame of the ring. */
+  private observe(): Float64Array {
     const { loop, session } = this.machine;
-    const before = this.words.slice(), row = this.frame(this.shown), count = BigInt(loop.count);
+    const row = this.frame(this.shown), count = BigInt(loop.count);
     const machine = this.at(loop.machine), y = this.base + loop.y, rate = this.base + loop.rate;
     this.functions[loop.evaluate]!(machine, this.time, y, count, rate, count);
     row[0] = this.time;
     this.functions[loop.observe]!(machine, this.time, y, count, row.byteOffset, BigInt(session.width));
-    const kept = row.slice();
-    this.words.set(before);
-    row.set(kept);
-    this.control[session.shown]! += 1n;
+    return row;
   }
 
   /** Why the run has ended or failed. */
@@ -127,4 +163,8 @@ export class Kernels {
   private at(place: number): bigint {
     return BigInt(this.base + place);
   }
+}
+
+function polynomial(factors: number[], t: number): number {
+  return factors.reduceRight((sum, each) => sum * t + each, 0);
 }

@@ -78,6 +78,12 @@ class Program {
       case "hold":
         if (this.driving) this.hold(message.on ? [message.body, ...message.point, ...message.towards.map((each, k) => each + this.given.machine.picture.origin[k]!)] : null);
         break;
+      case "adjust":
+        this.kernels.adjust(message.parameter, message.value);
+        this.saved = null; // it was a state of another machine
+        this.goTo(undefined);
+        this.tell();
+        break;
       case "command":
         this.command(message.word, message.number);
         break;

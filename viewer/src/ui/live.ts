@@ -1,6 +1,6 @@
 // A live machine: the bar that runs and pauses it, its controls, its gauges.
 import type { Samples } from "../connection";
-import type { Control, FromPage, Gauge, Status } from "../generated/records";
+import type { Control, FromPage, Gauge, Parameter, Status } from "../generated/records";
 import { Operator } from "../operator";
 import { el, iconButton, renew, short } from "./dom";
 import { Stick } from "./stick";
@@ -8,6 +8,7 @@ import { Strip } from "./strip";
 
 const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1] as const;
 const SEATS = { you: "You operate", other: "Somebody operates", program: "A program operates", nobody: "Take the controls" };
+const SPAN = 3; // values of a parameter on its slider, in those of the file
 const DRAWN = 100; // ms between two pictures of the strips
 
 interface Row {
@@ -35,6 +36,7 @@ export class Live {
   private readonly problem = el("p", { class: "problem", role: "status" });
   private readonly hint: HTMLElement;
   private readonly commands: (HTMLButtonElement | HTMLSelectElement)[]; // what a page that only watches may not use
+  private readonly chosen: number[] = []; // values of the parameters
   private drawn = 0;
   private resumes = false; // whether this page operated when the connection was lost
 
@@ -43,6 +45,7 @@ export class Live {
     private readonly gauges: Gauge[],
     private readonly send: (message: FromPage) => void,
     private readonly alone: boolean, // whether the machine is in the page, and no server is there to record it
+    parameters: Parameter[],
   ) {
     this.operator = new Operator(controls, (values) => send({ type: "drive", values }), () => this.take(true));
     this.run = iconButton("play", "Run", () => this.toggle(), "space");
@@ -83,6 +86,9 @@ export class Live {
       controls.length ? this.hint : null,
       sticks.length ? el("div", { class: "sticks" }, ...sticks.map((side) => new Stick(side, stickInWords(side, controls), (stick, value) => this.operator.deflect(stick, value)).element)) : null,
       el("ul", { class: "controls" }, ...this.rows.map((row) => row.output.closest("li")!)),
+      parameters.length ? el("h3", {}, "Parameters") : null,
+      parameters.length ? el("p", { class: "note" }, "With another value the machine goes back to its start.") : null,
+      el("ul", { class: "controls" }, ...parameters.map((each, k) => this.parameter(each, k))),
       gauges.length ? el("h3", {}, "Gauges") : null,
       el("ul", { class: "strips" }, ...this.strips.map((each) => each.element)),
     );
@@ -181,6 +187,23 @@ export class Live {
     });
   }
 
+  private parameter(parameter: Parameter, k: number): HTMLElement {
+    const { name, unit, value, least } = parameter, [low, high] = span(parameter);
+    const slider = el("input", { type: "range", min: low, max: high, step: "any", value, "aria-label": name });
+    const number = el("input", { type: "number", step: "any", value, "aria-label": `${name}, as a number` });
+    const take = (given: number) => {
+      const taken = given >= least ? given : this.chosen[k]!;
+      [slider.value, number.value] = [String(taken), String(+taken.toPrecision(6))];
+      if (taken !== this.chosen[k]) this.send({ type: "adjust", parameter: k, value: taken });
+      this.chosen[k] = taken;
+    };
+    this.chosen[k] = value;
+    slider.addEventListener("input", () => (number.value = String(+Number(slider.value).toPrecision(6))));
+    slider.addEventListener("change", () => take(Number(slider.value)));
+    number.addEventListener("change", () => take(number.value ? Number(number.value) : value));
+    return el("li", { class: "parameter" }, el("span", { class: "name" }, name), el("span", {}, number, ` ${unit}`), slider);
+  }
+
   private row(control: Control, k: number): Row {
     const output = el("output", {}, inWords(control, control.rest));
     const keys = [control.lowers, control.raises].filter(Boolean).map((key) => el("kbd", {}, keyInWords(key)));
@@ -208,6 +231,13 @@ export class Live {
     el("li", {}, el("label", {}, name, output, slider));
     return { control, slider, output };
   }
+}
+
+/** Ends of the slider of a parameter: some times its value, or about zero. */
+function span({ value, least }: Parameter): [number, number] {
+  if (value < 0) return [SPAN * value, 0];
+  const low = value ? 0 : -1;
+  return [least > 0 ? value / SPAN ** 2 : Math.max(low, least), value ? SPAN * value : 1];
 }
 
 /** A value with its unit; of a lever from -1 to 1, the share of its way. */

@@ -1,8 +1,8 @@
-"""Parameters of an FMU: how the numbers of a machine's image follow from them.
+"""Parameters of an exported machine: how the numbers of its image follow from them.
 
 A parameter is offered where every number that it changes follows a law (`nivel.analysis.preparation.parameters`): masses, inertias,
 stiffnesses, gains, limits and the like. What moves the start of the machine would need an assembly, which is done in Python; it is refused
-with its name. Where the machine lacks what a default of zero would multiply, the unit is that of other values, with the default put in.
+with its name. Where the machine lacks what a default of zero would multiply, it is that of other values, with the default put in.
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 from nivel.analysis.gradients.outputs import Parameter
 from nivel.analysis.preparation.memory import Array, MachineMemory, UnlikeError
 from nivel.analysis.preparation.parameters import Numbers, Unfit, UnfitError, numbers_of
+from nivel.analysis.preparation.preparation import Prepared
+from nivel.analysis.run.dynamics import Loop
 from nivel.c_library.exported import Exported, refusal
 from nivel.c_library.image import WORD
 from nivel.errors import Fault, ModelError
@@ -35,7 +37,7 @@ LEAST_POSITIVE = 1e-300
 
 
 class Followed(NamedTuple):
-    """The machine of a unit, its parameters, the smallest value that each may take, and what follows from them: numbers, and their words in
+    """The machine, its parameters, the smallest value that each may take, and what follows from them: numbers, and their words in
     the image."""
 
     machine: Exported
@@ -64,28 +66,29 @@ def follow(parameters: Sequence[Parameter], nominal: Exported, vary: Vary) -> Fo
         at = values.copy()
 
         def one(k: int, value: float, at: Array = at) -> MachineMemory:
-            return memory_of(varied(np.where(np.arange(len(at)) == k, value, at)))
+            other = varied(np.where(np.arange(len(at)) == k, value, at))
+            return memory_of(other.prepared, other.loop)
 
         rows = [
             [[[share * (value or 1.0) for share in row]] for row in (SHARES if value else ABOUT_ZERO)]
             for value in defaults
         ]
         try:
-            numbers = numbers_of(memory_of(base), values, rows, one)
+            numbers = numbers_of(memory_of(base.prepared, base.loop), values, rows, one)
             break
         except UnfitError as error:
             lacking = {each.parameter for each in error.args if isinstance(each.reason, UnlikeError)} - asides
             if not lacking:
-                raise ModelError([fault for each in error.args for fault in _faults(each, paths)]) from None
+                raise ModelError([fault for each in error.args for fault in _faults(each, paths, base.what)]) from None
             asides |= lacking
             base, values = _beside(defaults, asides, varied)
     _check_together(paths, defaults, base, numbers, varied)
     if asides and (name := _unlike_output(base, numbers, defaults, nominal)):
         listed = " and ".join(f"`{paths[k]}`" for k in sorted(asides))
         raise refusal(
-            f"{listed} cannot be parameters of an FMU: with their defaults the machine is another one (`{name}`)"
+            f"{listed} cannot be parameters of {base.what}: with their defaults the machine is another one (`{name}`)"
         )
-    addresses = memory_of(base).addresses[numbers.places]
+    addresses = memory_of(base.prepared, base.loop).addresses[numbers.places]
     words = np.array([base.image.byte_of(int(each)) // WORD for each in addresses], dtype=np.intp)
     base.image.words.view(np.float64)[words] = (
         numbers.at(defaults) if asides else base.image.words.view(np.float64)[words]
@@ -94,7 +97,7 @@ def follow(parameters: Sequence[Parameter], nominal: Exported, vary: Vary) -> Fo
     return Followed(base, tuple(parameters), least, numbers, words)
 
 
-def _faults(unfit: Unfit, paths: Sequence[str]) -> list[Fault]:
+def _faults(unfit: Unfit, paths: Sequence[str], of: str) -> list[Fault]:
     path = paths[unfit.parameter]
     match unfit.reason:
         case UnlikeError(name=name, kind="count"):
@@ -105,14 +108,14 @@ def _faults(unfit: Unfit, paths: Sequence[str]) -> list[Fault]:
             what = f"`{name}` follows no formula of it; where it changes the start of the machine, that has to be assembled again"
         case ModelError() as error:
             return [Fault.at(path, f"cannot be varied: {fault.message}") for fault in error.faults]
-    return [Fault.at(path, f"cannot be a parameter of an FMU: {what}")]
+    return [Fault.at(path, f"cannot be a parameter of {of}: {what}")]
 
 
-def memory_of(machine: Exported) -> MachineMemory:
+def memory_of(prepared: Prepared, loop: Loop) -> MachineMemory:
     """The numbers that an image is made of; dual numbers as lanes."""
-    twin = machine.prepared.motion.twin
+    twin = prepared.motion.twin
     twins = {} if twin is None else {"twin": lanes_of(twin.record)}
-    return MachineMemory(machine=machine.loop.machine.record, **twins, history=machine.loop.history.record)
+    return MachineMemory(machine=loop.machine.record, **twins, history=loop.history.record)
 
 
 def _beside(defaults: Array, asides: set[int], varied: Callable[[Array], Exported]) -> tuple[Exported, Array]:
@@ -127,25 +130,26 @@ def _check_together(
     """Compare the machine with other values of all parameters at once with one that is prepared. Raises ModelError where they differ, as
     where two parameters change one number together."""
     x = np.array([(1.0 + 0.01 * (k + 3)) * value or 0.1 for k, value in enumerate(defaults)])
-    memory = memory_of(base)
+    memory = memory_of(base.prepared, base.loop)
     found = memory.numbers
     found[numbers.places] = numbers.at(x)
     try:
         # errors are measured by scales where steps are chosen, which a unit has none of
-        names = [name for name in memory.differences(found, memory_of(varied(x))) if name != "history.scale"]
+        other = varied(x)
+        names = [n for n in memory.differences(found, memory_of(other.prepared, other.loop)) if n != "history.scale"]
     except UnlikeError as error:
         names = [error.name]
     if names:
         listed = " and ".join(f"`{path}`" for path in paths)
         raise refusal(
-            f"{listed} cannot be parameters of an FMU together: `{names[0]}` is not that of a machine with these values"
+            f"{listed} cannot be parameters of {base.what} together: `{names[0]}` is not that of a machine with these values"
         )
 
 
 def _unlike_output(base: Exported, numbers: Numbers, x: Array, other: Exported) -> str:
     """The first output that the machine with numbers of parameters x has otherwise than `other` after some steps, or none: it may lack what
     is multiplied by nothing."""
-    memory = memory_of(base)
+    memory = memory_of(base.prepared, base.loop)
     kept = [leaf.array.copy() for leaf in memory.leaves]
     memory.put(numbers.places, numbers.at(x))
     mine, wanted = _outputs_after(base), _outputs_after(other)
@@ -177,7 +181,7 @@ def _least(k: int, defaults: Array, base: Exported, numbers: Numbers, varied: Ca
         except ModelError:
             return False
         try:
-            memory_of(base).refuse_unlike(memory_of(other))
+            memory_of(base.prepared, base.loop).refuse_unlike(memory_of(other.prepared, other.loop))
         except UnlikeError:
             with np.errstate(all="ignore"):
                 return not _unlike_output(base, numbers, x, other)

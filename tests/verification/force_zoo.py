@@ -121,6 +121,11 @@ def round_pair(first, second, apart, contact=CONTACT):
     return Case({**contact, "bodies": ["c", "block"]}, ("c", "block", apart), True, {"bodies": more})
 
 
+MAGIC = {"version": "6.1", "coefficients": {
+    "FNOMIN": 60, "UNLOADED_RADIUS": 0.3, "PCX1": 1.6, "PDX1": 1.1, "PDX2": -0.1, "PEX1": 0.2, "PKX1": 20, "PHX1": 1e-3,
+    "PCY1": 1.3, "PDY1": 1, "PKY1": -18, "PKY2": 1.7, "PKY6": -0.9, "PHY1": 2e-3, "PVY1": 0.01, "RBX1": 10, "RBX2": -9, "RCX1": 1,
+    "RBY1": 9, "RBY2": 7, "RCY1": 1, "QBZ1": 10, "QCZ1": 1.1, "QDZ1": 0.1, "QDZ6": 0.01, "QBZ9": 10, "QSX1": 0.01, "QSX2": 0.8,
+    "QSX3": 0.05, "QSY1": 0.01, "SSZ2": 0.02}}  # fmt: skip
 TYRE = {"type": "tyre", "wheel": {"body": "c", "axis": [0.1, 1, 0.2]}, "plane": "floor", "radius": 0.3, "width": 0.2, "nominal_load": 60,
         "stiffness": 900, "damping": 3, "along": {"stiffness": 700, "damping": 4}, "across": {"stiffness": 500, "damping": 4}}  # fmt: skip
 # slips at which this one rolls
@@ -286,6 +291,7 @@ CASES = {
                                        "stiffness": 60, "damping": 2, "length": 0.8, "speed": "0.3*lever.value", "friction": 0.02},
                                       more={"inputs": {"lever": LEVER}}),
     "tyre": Case({**TYRE, **ROLLS}, ("c", "", [-0.5, 0.9, 0.1]), True),
+    "tyre of a file": Case({**TYRE, "magic": MAGIC}, ("c", "", [-0.5, 0.9, 0.1]), True),
     "tyre on a body": Case({**TYRE, "plane": "eye", "grip": 0.5}, ("c", "b", [0.05, 0.02, 0.15]), True),
     "tyre on heights": Case({**TYRE, "heights": HILLS, "grip": "0.6 + 0.3*sin(x + 2*y + time)"}, ("c", "", [-0.5, 0.9, 0.4]), True),
     "tyre, off the ground": Case(TYRE, ("c", "", [-0.5, 0.9, 1.4]), False),

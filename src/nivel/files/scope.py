@@ -26,6 +26,7 @@ from nivel.files.outline import VALUES, Known, as_part, check_sections, check_st
 from nivel.files.overrides import in_order, override, prefix_of, with_units
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
+from nivel.files.tyre_file import read_tyres
 from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.control.problems import can_be_named
 from nivel.machine.core.record import Record
@@ -127,6 +128,7 @@ def _tree_of(
     divide_meshes(tree)
     divide_heaps(tree)
     read_heights(tree, sources)
+    read_tyres(tree, sources)
     read_python_laws(tree, sources)
     read_unit_blocks(tree, sources)
     read_csv_tables(tree, sources)

@@ -17,6 +17,10 @@ at σ s_M: slopes, peaks and their ellipse are exact, and where it slides the fo
 component, R_B = (L + b)/6; camber is a sliding speed L/6 Ω sin γ; F_y acts behind the middle by the trail n L.
 Every force acts on the velocity that it is computed from: F_x at the rolling radius, F_y at the trail. So what is lost is
 d ż² + A F² ≥ 0, and nothing else.
+
+With the numbers of a `.tir` file the law is a Magic Formula (`magic_formula`): F of its slips κ and tan α is F₀ - v/A, where A is the
+secant of the curve without its shifts and F₀ what they add, so ż = -(v + A (c z - F₀))/(1 + A d). Its transport speed is |v_x|. Its
+moments act besides, with the work that they do; the spin of a leaning wheel is in the formula and not in the bore.
 """
 
 from __future__ import annotations
@@ -29,6 +33,16 @@ from pydantic import BeforeValidator
 
 from nivel.elements.contacts.height_field import HeightField
 from nivel.elements.contacts.heights import numbers_of, surface
+from nivel.elements.forces import magic_formula
+from nivel.elements.forces.magic_formula import (
+    MOST_SLIP,
+    Magic,
+    MagicFormula,
+    lever,
+    magic,
+    overturning,
+    resistance,
+)
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, of_force
 from nivel.elements.rows import Row, several
@@ -42,8 +56,8 @@ from nivel.kernels.record import function
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
-from nivel.machine.core.checked import Checked, Problem
-from nivel.machine.core.coefficient import NotNegativeNumber, PositiveForce, PositiveNumber
+from nivel.machine.core.checked import Checked, Problem, superfluous
+from nivel.machine.core.coefficient import NotNegativeNumber, PositiveForce, PositiveNumber, Pressure
 from nivel.machine.core.element import Acts, ForceElement, Inequalities
 from nivel.machine.core.marker import MarkerPlace
 from nivel.machine.core.placement import marker_frame
@@ -154,6 +168,7 @@ class Tyre(ForceElement):
         Output("slip_loss", "W", "power lost in patch and carcass"),
         Output("place_x", "m", "place of the patch along the x axis of the plane's marker"),
         Output("place_y", "m", "place of the patch along its y axis"),
+        Output("overturning_moment", "N*m", "about the direction in which it points"),
     )
     turns: ClassVar[bool] = True
     inequalities: ClassVar[Inequalities] = (
@@ -171,6 +186,16 @@ class Tyre(ForceElement):
     heights: Maybe[OneRecord[HeightField]] = Field(
         default=None, description="of ground that is not flat, along the z axis of the `plane` over its x and y axes"
     )
+    file: str | None = Field(
+        default=None,
+        description="`.tir` file of a Magic Formula, relative to the machine file: sizes, stiffness and curves that are not given here",
+    )
+    side: Literal["left", "right"] | None = Field(
+        default=None,
+        description="of the vehicle on which it is: on the other one than that of the `file` it is in the mirror; default: as the file",
+    )
+    pressure: Maybe[Pressure] = Field(default=None, description="of inflation", absent="that of the `file`")
+    magic: Maybe[OneRecord[MagicFormula]] = Field(default=None, description="the numbers of the `file`")
     radius: PositiveLength = Field(description="of the tyre without load")
     width: PositiveLength = Field(description="of the patch")
     nominal_load: PositiveForce = Field(description="to which the first numbers of the curves belong")
@@ -202,6 +227,10 @@ class Tyre(ForceElement):
     @property
     def source(self) -> str:
         """Where its numbers are from."""
+        if self.magic is not None:
+            mirrored = "" if self.side in (None, self.magic.side) else " in the mirror"
+            unused = f"; not used: {', '.join(self.magic.unused)}" if self.magic.unused else ""
+            return f"Magic Formula {self.magic.version} of {self.file or 'its coefficients'}{mirrored}{unused}"
         guessed = ["stiffness"] if self.stiffness is None else []
         for name in ("along", "across"):
             missing = [key for key in ALONG if getattr(getattr(self, name), key) is None]
@@ -225,6 +254,18 @@ class Tyre(ForceElement):
                 )
 
     def problems(self) -> Iterator[Problem]:
+        if self.magic is None and self.file is not None:
+            yield Problem(("file",), f"the file `{self.file}` was not read; in Python give `magic`")
+        for name in ("side", "pressure"):
+            if self.magic is None and getattr(self, name) is not None:
+                yield superfluous(name, "belongs to the `file` of a Magic Formula, and none is given")
+        if self.magic is not None and "rolling_resistance" in self.model_fields_set:
+            yield superfluous("rolling_resistance", "is that of the `file`")
+        for name in ("along", "across"):
+            given = {*ALONG} & getattr(self, name).model_fields_set
+            if self.magic is not None and given:
+                message = f"the curve of the `file` stands in place of {', '.join(f'`{key}`' for key in sorted(given))}"
+                yield Problem((name,), message)
         if isinstance(self.grip, int | float) and self.grip < LEAST_GRIP:
             yield Problem(("grip",), f"a number of {LEAST_GRIP:g} or more was expected, got {self.grip:g}")
         for name, guess in (("along", ALONG), ("across", ACROSS)):
@@ -270,6 +311,8 @@ class TyreRow(Row):
     along: Sequence[float] = several(10)
     across: Sequence[float] = several(10)
     trail: Sequence[float] = several(6)
+    is_magic: float = 0.0
+    magic: Sequence[float] = several(Magic.places, default=(0.0,) * Magic.places)
     heights: Sequence[float] = several(default=())
 
 
@@ -352,23 +395,68 @@ def root(x):
 
 @leaf
 def fluidities(n, q, v_t, v, z):
-    """(A_x, A_y = A of the bore). v, z : sliding velocities and stretches along, across and of the bore."""
+    """(A_x, A_y = A of the bore) of TMeasy. v, z : sliding velocities and stretches along, across and of the bore."""
     x, y = curve_at(n, TyreRow.ALONG, q, n[TyreRow.GRIP]), curve_at(n, TyreRow.ACROSS, q, n[TyreRow.GRIP])
     across = v[1] * v[1] + v[2] * v[2]
     speed = root(v[0] * v[0] + across)
     weighted = root((v[0] / x[1]) ** 2 + across / (y[1] * y[1]))
     a, b = fluidity(v_t, x[1] * weighted, speed, x), fluidity(v_t, y[1] * weighted, speed, y)
+    a, b, _ = held(n, v_t, v, z, (x[0], x[2], x[4]), (y[0], y[2], y[4]), a, b, b)
+    return a, b
+
+
+@leaf
+def held(n, v_t, v, z, x, y, a, b, bore):
+    """(A_x, A_y, A of the bore) of a bristle, which may be below its sliding force or beyond the peak. x, y : slope, peak, sliding."""
     fx, fy, fb = n[TyreRow.CX] * z[0], n[TyreRow.CY] * z[1], n[TyreRow.CY] * z[2]
     across = fy * fy + fb * fb
+    speed = root(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
     if real(speed) < SLOW:
-        share = root((fx / x[4]) ** 2 + across / (y[4] * y[4]))
+        share = root((fx / x[2]) ** 2 + across / (y[2] * y[2]))
         slides = sliding_share(share, real(v[0] * fx + v[1] * fy + v[2] * fb) > 0.0, speed)
         a, b = v_t / x[0] + (a - v_t / x[0]) * slides, v_t / y[0] + (b - v_t / y[0]) * slides
-    over = (fx / x[2]) ** 2 + across / (y[2] * y[2])
+        bore = v_t / y[0] + (bore - v_t / y[0]) * slides
+    over = (fx / x[1]) ** 2 + across / (y[1] * y[1])
     if real(over) > 1.0:
         over = np.sqrt(over) - 1.0
-        a, b = a + over / n[TyreRow.DX], b + over / n[TyreRow.DY]
-    return a, b
+        a, b, bore = a + over / n[TyreRow.DX], b + over / n[TyreRow.DY], bore + over / n[TyreRow.DY]
+    return a, b, bore
+
+
+@leaf
+def magic_fluidities(n, load, v_t, v_x, v, z, forward, tilt):
+    """((A_x, A_y, A of the bore), (F₀ along, across), (F_y that is not on the trail, trail, M_zr)) of a Magic Formula.
+
+    v_t, v, z : as of `fluidities`; v_x : speed of the contact point along x, by which slips are; forward : 1 or -1, the sense of it.
+    """
+    p = n[TyreRow.MAGIC : TyreRow.MAGIC + Magic.places]
+    speed = root(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+    scale = maximum(v_x, speed / MOST_SLIP)
+    kappa, tangent, side = 0.0 * speed, 0.0 * speed, p[Magic.SIGN] * forward
+    if real(scale) > 0.0:
+        kappa, tangent = -forward * v[0] / scale, side * v[1] / scale
+    along, across, moments = magic(p, load, kappa, tangent, side * tilt, n[TyreRow.GRIP])
+    a, b = scale / along[4], scale / across[4]
+    bore = v_t / across[1] + absolute(v[2]) / across[3]
+    f0, g0 = forward * (along[0] - along[4] * kappa), side * (across[0] + across[4] * tangent)
+    x, y = (along[1], along[3], along[2]), (across[1], across[3], across[2])
+    return held(n, v_t, v, z, x, y, a, b, bore), (f0, g0), moments
+
+
+@leaf
+def magic_moments(n, load, moments, fx, fy, forward, tilt, speed):
+    """(M_z, M_x, -M_y) of a Magic Formula, of forces in the sense in which the wheel rolls."""
+    p = n[TyreRow.MAGIC : TyreRow.MAGIC + Magic.places]
+    sign = p[Magic.SIGN]
+    fy, tilt = sign * fy, sign * forward * tilt
+    about = moments[2] - moments[1] * (fy - moments[0]) + lever(p, load, fy, tilt) * fx
+    return sign * about, sign * forward * overturning(p, load, fy, tilt), resistance(p, load, fx, speed, tilt)
+
+
+@leaf
+def rocked(v):
+    """Speed of the tread with which stretches relax."""
+    return absolute(v) if np.abs(real(v)) >= ROCKS else v * v / ROCKS
 
 
 @leaf
@@ -396,13 +484,12 @@ def trail_at(n, q, slip):
 
 
 @leaf
-def rolling(n, load, roll, v_t, z):
-    """(F, ż, loss) of the rolling resistance f F_z, which stands still at rest. roll : r Ω."""
+def rolling(n, most, roll, v_t, z):
+    """(F, ż, loss) of a rolling resistance, which stands still at rest. most : its force; roll : r Ω."""
     c = n[TyreRow.ROLLING] * n[TyreRow.LOAD] / ROLLED
     d = ROLL_TIME * c
-    if real(c) == 0.0:
+    if real(c) == 0.0 or real(most) <= 0.0:
         return 0.0 * roll, -z / ROLL_TIME, 0.0 * roll
-    most = n[TyreRow.ROLLING] * load
     share = absolute(c * z) / most
     a = v_t / most * sliding_share(share, real(roll * z) > 0.0, v_t)
     if real(share) > 1.0:
@@ -474,7 +561,7 @@ def apply(machine, number, t):
         cx, dx, cy, dy = n[TyreRow.CX], n[TyreRow.DX], n[TyreRow.CY], n[TyreRow.DY]
         rate = elements.state_rate
         z, rolled = (elements.state[own[0]], elements.state[own[1]], elements.state[own[2]]), elements.state[own[3]]
-        out = record.outputs.value[first : first + 13]
+        out = record.outputs.value[first : first + 14]
         # from the centre to the patch d, across the axle in the plane of the axle and the normal; x, a: along and across in the plane
         tilt = dot(normal, y)
         upright = np.sqrt(maximum(1.0 - tilt * tilt, FLAT * FLAT + 0.0 * tilt))
@@ -507,7 +594,7 @@ def apply(machine, number, t):
             control.stored[0] += 0.5 * elastic * deflection
             control.power[1] += (load * upright - elastic) * sinking
         q = load / n[TyreRow.LOAD]
-        for m in range(11):
+        for m in range(14):
             out[m] = 0.0 * tilt
         place = minus(p, markers.r[j])
         out[11], out[12] = dot(axis(markers.A[j], 0), place), dot(axis(markers.A[j], 1), place)
@@ -526,41 +613,58 @@ def apply(machine, number, t):
         stays = n[TyreRow.ROLLING_SHARE] * minimum(q, 2.0 + 0.0 * q)
         r = n[TyreRow.RADIUS] - (1.0 - stays) * deflection
         roll = r * spin
-        v_t = absolute(roll) if np.abs(real(roll)) >= ROCKS else roll * roll / ROCKS
+        v_t = rocked(roll)
         length = 2.0 * np.sqrt(n[TyreRow.RADIUS] * deflection)
-        lever, lean = (length + n[TyreRow.WIDTH]) / 6.0, length / 6.0 * tilt
+        patch = (length + n[TyreRow.WIDTH]) / 6.0
         along, across = dot(s, x), dot(s, a)
-        slow = np.sqrt(v_t * v_t + SLOW * SLOW)
-        trail = length * trail_at(n, q, absolute(across + lean * spin) / slow) * roll / slow
-        v = along + (loaded - r) * spin, across - trail * bore + lean * spin, lever * bore
-        fluid, fluid_across = fluidities(n, q, v_t, v, z)
-        u0 = stretch_rate(v[0], fluid, cx, dx, z[0])
-        u1, u2 = stretch_rate(v[1], fluid_across, cy, dy, z[1]), stretch_rate(v[2], fluid_across, cy, dy, z[2])
+        moved = along + loaded * spin  # of the contact point without its spin
+        slide = along + (loaded - r) * spin
+        most, beside, about, turned = n[TyreRow.ROLLING] * load, 0.0 * load, 0.0 * load, 0.0 * load
+        if n[TyreRow.IS_MAGIC] == 1.0:
+            trail, lean, bearing = 0.0 * load, 0.0 * load, q * n[TyreRow.LOAD]
+            turned, forward = tilt, 1.0 if real(moved) >= 0.0 else -1.0
+            v = slide, across, patch * (bore - turned * spin)
+            fluid, (f0, g0), moments = magic_fluidities(n, bearing, v_t, absolute(moved), v, z, forward, tilt)
+        else:
+            lean = length / 6.0 * tilt
+            slow = np.sqrt(v_t * v_t + SLOW * SLOW)
+            trail = length * trail_at(n, q, absolute(across + lean * spin) / slow) * roll / slow
+            v = slide, across - trail * bore + lean * spin, patch * bore
+            a_x, a_y = fluidities(n, q, v_t, v, z)
+            fluid, f0, g0 = (a_x, a_y, a_y), 0.0 * load, 0.0 * load
+        u0 = stretch_rate(v[0] - fluid[0] * f0, fluid[0], cx, dx, z[0])
+        u1 = stretch_rate(v[1] - fluid[1] * g0, fluid[1], cy, dy, z[1])
+        u2 = stretch_rate(v[2], fluid[2], cy, dy, z[2])
         fx, fy, fb = cx * z[0] + dx * u0, cy * z[1] + dy * u1, cy * z[2] + dy * u2
-        fr, u3, loss = rolling(n, load, roll, v_t, rolled)
+        if n[TyreRow.IS_MAGIC] == 1.0:
+            about, beside, moment = magic_moments(n, bearing, moments, forward * fx, forward * fy, forward, tilt, moved)
+            about, most = about * v_t / np.sqrt(v_t * v_t + SLOW * SLOW), moment / r
+        fr, u3, loss = rolling(n, most, roll, v_t, rolled)
         rate[own[0]] += u0
         rate[own[1]] += u1
         rate[own[2]] += u2
         rate[own[3]] += u3
-        loss += dx * u0 * u0 + dy * (u1 * u1 + u2 * u2) + fluid * fx * fx + fluid_across * (fy * fy + fb * fb)
+        loss += dx * u0 * u0 + dy * (u1 * u1 + u2 * u2) - about * bore - beside * dot(w, x)
+        loss += fluid[0] * fx * (fx - f0) + fluid[1] * fy * (fy - g0) + fluid[2] * fb * fb
         control.power[1] += loss
-        moment, axial = lever * fb - trail * fy, r * fr + (loaded - r) * fx + lean * fy
+        moment = patch * fb - trail * fy + about
+        axial = r * fr + (loaded - r) * fx + lean * fy - patch * fb * turned
         f0 = fx * x[0] + fy * a[0] + load * normal[0]
         f1 = fx * x[1] + fy * a[1] + load * normal[1]
         f2 = fx * x[2] + fy * a[2] + load * normal[2]
         m0, m1, m2 = (
-            moment * normal[0] + axial * y[0],
-            moment * normal[1] + axial * y[1],
-            moment * normal[2] + axial * y[2],
+            moment * normal[0] + axial * y[0] + beside * x[0],
+            moment * normal[1] + axial * y[1] + beside * x[1],
+            moment * normal[2] + axial * y[2] + beside * x[2],
         )
         power = add_force_at(bodies, wheel, p, f0, f1, f2) + add_torque(bodies, wheel, m0, m1, m2)
         power += add_force_at(bodies, road, p, -f0, -f1, -f2) + add_torque(bodies, road, -m0, -m1, -m2)
-        moved = along + loaded * spin  # of the contact point without its spin
         fastest = maximum(absolute(moved), v_t)
         out[0], out[1], out[2], out[3], out[4], out[5] = load, power, fx, fy, moment, axial
         if real(fastest) > 0.0:
             out[6] = (roll - moved) / fastest
         out[7], out[8], out[9], out[10] = arctan2(across, absolute(moved)), np.arcsin(tilt), deflection, loss
+        out[13] = beside
     return OK
 
 
@@ -580,6 +684,10 @@ def add_tyre(builder: SystemBuilder, force: Tyre) -> None:
         for word, text in words
     ]
     first = add_outputs(builder, force)
+    formula = [0.0] * Magic.places
+    if force.magic is not None:
+        formula = magic_formula.numbers_of(force.magic, force.pressure, force.side)
+        vertical *= 1.0 + formula[Magic.PRESSED]
     # tyres on the same heights share the numbers of the first one
     others = [each for each in builder.machine.forces if isinstance(each, Tyre)]
     ground = (
@@ -605,9 +713,11 @@ def add_tyre(builder: SystemBuilder, force: Tyre) -> None:
         friction=builder.function(
             force.grip, {"x": (function.OUTPUT, first + 11, 0), "y": (function.OUTPUT, first + 12, 0)}
         ),
-        rolling=force.rolling_resistance,
+        rolling=max(formula[Magic.QSY] + formula[Magic.QSY + 2], 0.0) if force.magic else force.rolling_resistance,
         rolling_share=force.rolling_share,
         trail=[*force.trail, *force.trail_zero, *force.trail_end],
+        is_magic=float(force.magic is not None),
+        magic=formula,
         **curves,
     )
     builder.add(apply, row, 1, (0,))

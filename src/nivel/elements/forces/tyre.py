@@ -82,6 +82,7 @@ STICKS, SLIDES, SLOW = (
     0.95,
     0.1,
 )  # shares of the sliding force, and a speed [m/s], between which a bristle is elastic and slides
+ROLLING = 0.01  # force by load
 ROLLED, ROLL_TIME = 0.01, 0.05  # [m] of rolling that stretch the rolling resistance, and d/c of it [s]
 LEAST_GRIP = 1e-3
 MOST_LOAD, LEAST_LOAD = 3.0, 1e-6  # of the nominal load: curves end there, and a tyre with less has left the ground
@@ -214,7 +215,7 @@ class Tyre(ForceElement):
         default=1.0,
         description="factor of peak and sliding forces and of their slips; a function, of the place `x`, `y` too",
     )
-    rolling_resistance: NotNegativeNumber = Field(default=0.01, description="force by load")
+    rolling_resistance: NotNegativeNumber = Field(default=ROLLING, description="force by load")
     rolling_share: NotNegativeNumber = Field(
         default=0.375, description="of the deflection that the rolling radius does not follow, at the nominal load"
     )
@@ -259,12 +260,12 @@ class Tyre(ForceElement):
         for name in ("side", "pressure"):
             if self.magic is None and getattr(self, name) is not None:
                 yield superfluous(name, "belongs to the `file` of a Magic Formula, and none is given")
-        if self.magic is not None and "rolling_resistance" in self.model_fields_set:
+        if self.magic is not None and self.rolling_resistance != ROLLING:
             yield superfluous("rolling_resistance", "is that of the `file`")
         for name in ("along", "across"):
-            given = {*ALONG} & getattr(self, name).model_fields_set
+            given = [key for key in ALONG if getattr(getattr(self, name), key) is not None]
             if self.magic is not None and given:
-                message = f"the curve of the `file` stands in place of {', '.join(f'`{key}`' for key in sorted(given))}"
+                message = f"the curve of the `file` stands in place of {', '.join(f'`{key}`' for key in given)}"
                 yield Problem((name,), message)
         if isinstance(self.grip, int | float) and self.grip < LEAST_GRIP:
             yield Problem(("grip",), f"a number of {LEAST_GRIP:g} or more was expected, got {self.grip:g}")
@@ -620,9 +621,9 @@ def apply(machine, number, t):
         moved = along + loaded * spin  # of the contact point without its spin
         slide = along + (loaded - r) * spin
         most, beside, about, turned = n[TyreRow.ROLLING] * load, 0.0 * load, 0.0 * load, 0.0 * load
+        bearing, forward, moments = q * n[TyreRow.LOAD], 1.0 if real(moved) >= 0.0 else -1.0, (most, most, most)
         if n[TyreRow.IS_MAGIC] == 1.0:
-            trail, lean, bearing = 0.0 * load, 0.0 * load, q * n[TyreRow.LOAD]
-            turned, forward = tilt, 1.0 if real(moved) >= 0.0 else -1.0
+            trail, lean, turned = 0.0 * load, 0.0 * load, tilt
             v = slide, across, patch * (bore - turned * spin)
             fluid, (f0, g0), moments = magic_fluidities(n, bearing, v_t, absolute(moved), v, z, forward, tilt)
         else:

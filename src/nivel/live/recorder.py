@@ -15,8 +15,8 @@ from nivel.integrate.loop.paced import DONE, SHOWN, Live
 from nivel.live.journal import FRAMES, GAP, PART, TICKS, Journal
 from nivel.live.preparation import Pace
 from nivel.live.recording import Part, complete, parts_in
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 MARGIN = 1024  # rows of the ring that the loop may write while they are read
 
 

@@ -31,12 +31,12 @@ from nivel.lazy import dataclass, replace
 from nivel.live.preparation import LiveRun, prepared_run
 from nivel.live.recording import Recording, Take
 from nivel.live.shared import bytes_of, live_in
+from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
 
-Array = NDArray[np.float64]
 FRAMES_AT_ONCE: Final = 32
 
 

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.lazy import dataclass, field
 from nivel.machine.bodies.surface import surface_arrays
-
-Array = NDArray[np.float64]
+from nivel.machine.core.vectors import Array
 
 FACETS = 48  # of a cylinder: its silhouette is round to 0.2 % of the radius
 MOST_FACES = 4000  # of a mesh, to keep the picture small

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from nivel.looks.poses import Pose, in_space
 from nivel.looks.solids import Face, ears
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 MOST_RINGS: Final = 60  # of one sweep
 FINEST: Final = 8  # rings from one frame to the next
 

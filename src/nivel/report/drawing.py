@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from nivel.lazy import dataclass, field
 from nivel.looks.viewpoint import View
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 Box = tuple[float, float, float, float]  # left, top, right, bottom in pixels
 
 FONT = 13.0  # pixels

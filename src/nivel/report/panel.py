@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.lazy import dataclass
-
-Array = NDArray[np.float64]
+from nivel.machine.core.vectors import Array
 
 GROUPS = 24  # elements of a panel that can be chosen; more stand in the result file
 TOGETHER = 8  # curves that can be told apart in one plot

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 560.0, 300.0, 62.0, 14.0, 12.0, 42.0
 TONES: Final = 8
 MOST: Final = 1200  # points of a curve

@@ -13,6 +13,7 @@ from nivel.files.target import write_text
 from nivel.flexible.body.body import ReducedBody
 from nivel.flexible.checks.findings import Findings
 from nivel.looks.viewpoint import View, choose_view
+from nivel.machine.core.vectors import Array
 from nivel.report.drawing import HEIGHTS, LIGHT, WIDTH, Frame, between, fit
 from nivel.report.page import page
 
@@ -133,8 +134,6 @@ def _inertia(findings: Findings) -> list[tuple[str, str]]:
         rows.append(("volume of the material", f"{findings.volume:.6g} m³"))
     return rows
 
-
-Array = NDArray[np.float64]
 
 AMPLITUDE: Final = 0.12  # of the size of the body: the largest displacement in a picture
 MOST_TRIANGLES: Final = 1400

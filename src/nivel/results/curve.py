@@ -17,12 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.lazy import dataclass, replace
+from nivel.machine.core.vectors import Array
 from nivel.results.frames.contents import derivative, shape_of
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
 
-Array = NDArray[np.float64]
 STENCIL: Final = 5  # frames through which a polynomial is laid where rates are not known
 DOUBT: Final = 0.5  # of what a cubic over two intervals misses at a corner, that over one does
 RATES: Final = {

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 from nivel.results.scales import Readable, blocks
 
 
@@ -98,7 +99,6 @@ def energy_measures(result: Readable, kinetic_energy: float) -> tuple[float, flo
     return error, error / kinetic_energy if kinetic_energy > 0.0 else None
 
 
-Array = NDArray[np.float64]
 SAME_TIME: Final = 1e-9  # of the time span: frames this near are of one time
 
 DEFINITION: Final = (

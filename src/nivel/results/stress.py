@@ -32,6 +32,7 @@ from nivel.flexible.body.recovery import (
     von_mises,
 )
 from nivel.lazy import asdict, dataclass, nivel, scipy
+from nivel.machine.core.vectors import Array
 from nivel.results.trust import Trust
 from nivel.words.arguments import checked_arguments
 
@@ -39,7 +40,6 @@ if TYPE_CHECKING:
     from nivel.results.result import Result
 
 
-Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
 Told = Callable[[str, float], None]  # what is done, and which share of all is, 0 to 1
 

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.lazy import dataclass, field, xarray
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 ENDED: Final = ("done", "stopped")
 CONFIDENCE: Final = 1.959963984540054  # standard deviations of 95 %
 RESAMPLES: Final = 200  # of the bootstrap of Sobol indices

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.lazy import dataclass, nivel, replace
+from nivel.machine.core.vectors import Array
 from nivel.results.result import Result
 from nivel.view import frames as frame_plan
 from nivel.view.arrows import Moments, arrows, described, places_of, violation_vectors
@@ -57,7 +57,7 @@ def columns(result: Result, frames: slice, block: Block, budget: int) -> list[Co
     rank = {variable: k for k, variable in enumerate(FIRST)}
     ordered = sorted(names, key=lambda name: rank.get(variables[name], len(FIRST)))
     carried = set(ordered[:room])
-    arrays: dict[str, NDArray[np.float64]] = {}
+    arrays: dict[str, Array] = {}
     elements = _elements(result)
     out = []
     for name in names:
@@ -89,7 +89,6 @@ def _owner(name: str, elements: set[str]) -> str:
     return next((each for each in candidates if each in elements), "")
 
 
-Array = NDArray[np.float64]
 MOST_MOMENTS: Final = 500  # events that are marked
 LARGEST: Final = 1e30  # [m] beyond it bodies are not drawn: 32-bit numbers could not hold the squares in between
 

@@ -59,8 +59,8 @@ class Check(Generic[S, F]):
     needs: tuple[Need, ...] = ()
     title: str = ""
     threshold: Threshold | None = None
-    line: str = ""
     blind: str = ""
+    line: str = ""
     quiet: bool = False
     last: bool = False
     apart: bool = False

@@ -21,11 +21,10 @@ from nivel.machine.bodies.shape import Capsule, Ellipsoid, Sphere
 from nivel.machine.bodies.solids import length
 from nivel.machine.bodies.touching import Touching
 from nivel.machine.core.record import GROUND
-from nivel.machine.core.vectors import cross
+from nivel.machine.core.vectors import Array, cross
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, rotated
 
-Array = NDArray[np.float64]
 # speeds of frames differ by less where nothing happened between them
 UNCHANGED = 0.2
 # straight pieces of the way between two frames
@@ -90,14 +89,9 @@ class Motions:
     """Motions of points of bodies in a result, each found once."""
 
     def __init__(self, result: Readable) -> None:
-        self.result = result
+        self.result, self.time = result, result.time
         self._read: dict[str, Array] = {}
         self._points: dict[tuple[str, bytes], tuple[Array, Array, Array]] = {}
-
-    @cached_property
-    def time(self) -> Array:
-        """(n,) [s] of the frames."""
-        return self.result.time
 
     def _array(self, name: str, body: str) -> Array:
         if name not in self._read:
@@ -132,9 +126,8 @@ class Motions:
 
     def turns_of(self, body: str) -> Array:
         """Euler parameters (n, 4) of a body or the ground."""
-        return (
-            np.tile([1.0, 0.0, 0.0, 0.0], (len(self.time), 1)) if body == GROUND else self._array("orientation", body)
-        )
+        still = np.tile([1.0, 0.0, 0.0, 0.0], (len(self.time), 1))
+        return still if body == GROUND else self._array("orientation", body)
 
 
 # Overlaps above this share of the distance at which they touch are no touch in passing.
@@ -173,11 +166,8 @@ class HullPair:
     @cached_property
     def thinnest(self) -> float:
         """[m] of the two least widths between a face and the corners, the smaller one."""
-        widths = [
-            float((faces[:, 3] - (corners @ faces[:, :3].T).min(axis=0)).min())
-            for corners, faces in zip(self.corners, self.faces, strict=True)
-        ]
-        return min(widths)
+        hulls = zip(self.corners, self.faces, strict=True)
+        return min(float((faces[:, 3] - (corners @ faces[:, :3].T).min(axis=0)).min()) for corners, faces in hulls)
 
     @property
     def reach(self) -> float:
@@ -233,9 +223,8 @@ def hulls_of(machine: MachineRecord) -> list[HullPair]:
                     known[part] = _hull(body, part[1])
             first, second = (known[part] for part in parts)
             middles, corners = (first.middle, second.middle), (first.corners, second.corners)
-            out.append(
-                HullPair(force.name, (pair[0].body, pair[1].body), middles, corners, (first.faces, second.faces))
-            )
+            bodies = pair[0].body, pair[1].body
+            out.append(HullPair(force.name, bodies, middles, corners, (first.faces, second.faces)))
     return out
 
 
@@ -318,14 +307,11 @@ def passed_spheres(motions: Motions, pairs: Sequence[Pair]) -> list[Passed]:
     """The deepest of each pair, where the ways between frames lead through the overlap."""
     out = []
     for pair in pairs:
-        found = motions.between(pair.bodies, pair.centres).nearest(pair.reach)
-        if found is None:
-            continue
-        distance, at, lasted = found
-        overlap = 1.0 - distance / pair.reach
-        if overlap > DEEP:
-            out.append(Passed(pair.contact, pair.bodies, overlap, "the distance at which they touch", at, lasted))
-    return out
+        if found := motions.between(pair.bodies, pair.centres).nearest(pair.reach):
+            distance, at, lasted = found
+            share = 1.0 - distance / pair.reach
+            out.append(Passed(pair.contact, pair.bodies, share, "the distance at which they touch", at, lasted))
+    return [each for each in out if each.overlap > DEEP]
 
 
 def passed_hulls(motions: Motions, pairs: Sequence[HullPair]) -> tuple[list[Passed], tuple[str, ...]]:

@@ -132,9 +132,8 @@ def free_motions(machine: MachineRecord, prepared: Prepared) -> Iterator[Fault]:
     driven = [name for name in redundancy.redundant_rows if name.endswith(".driver")]
     if driven:
         names = ", ".join(name.removesuffix(".driver") for name in driven)
-        message = f"the drivers prescribe more motions than there are degrees of freedom: {names} follows from the others; leave "
-        "one out"
-        yield Fault.at("drivers", message)
+        said = f"the drivers prescribe more motions than there are degrees of freedom: {names} follows from the others"
+        yield Fault.at("drivers", f"{said}; leave one out")
         return
     count = redundancy.degrees_of_freedom
     if count == 0:
@@ -176,23 +175,19 @@ def beside_states(machine: MachineRecord, settings: StaticsSettings) -> Iterator
 
 def at_rest(machine: MachineRecord) -> tuple[str, ...]:
     """Sentences on what makes no force at rest."""
-    rubbing = [force.name for force in machine.forces if isinstance(force, Friction)]
-    damping = [
-        force.name
-        for force in machine.forces
-        if not isinstance(force, Friction) and any(getattr(force, name, None) for name in DAMPING)
+    rubbing = [force for force in machine.forces if isinstance(force, Friction)]
+    others = [force for force in machine.forces if not isinstance(force, Friction)]
+    resting = {
+        "dampers exert": [force for force in others if any(getattr(force, name, None) for name in DAMPING)],
+        "coulomb friction depends on speed and exerts": rubbing,
+        "friction of contacts exerts": [force for force in others if isinstance(force, Contact) and force.friction],
+    }
+    out = [
+        f"{who} no force at rest ({first_of([force.name for force in forces], SHOWN)})"
+        for who, forces in resting.items()
+        if forces
     ]
-    out = []
-    if damping:
-        out.append(f"dampers exert no force at rest ({first_of(damping, SHOWN)})")
-    if rubbing:
-        out.append(f"coulomb friction depends on speed and exerts no force at rest ({first_of(rubbing, SHOWN)})")
-    touching = [force.name for force in machine.forces if isinstance(force, Contact) and force.friction]
-    if touching:
-        out.append(f"friction of contacts exerts no force at rest ({first_of(touching, SHOWN)})")
-    if machine.events:
-        out.append("events are ignored")
-    return tuple(out)
+    return (*out, *(["events are ignored"] if machine.events else []))
 
 
 DAMPING = ("damping", "rotational_damping", "viscous")

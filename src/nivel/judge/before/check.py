@@ -128,11 +128,8 @@ def _lines(facts: Check) -> Iterator[str]:
     if facts.bodies:
         yield "bodies"
     for body in facts.bodies:
-        inertia = (
-            f"principal inertia {_vector(body.principal_inertia, 4)} kg m²"
-            if body.principal_inertia
-            else "a point mass"
-        )
+        moments = body.principal_inertia
+        inertia = f"principal inertia {_vector(moments, 4)} kg m²" if moments else "a point mass"
         turned = f", turned {np.degrees(body.angle):.4g} deg about {_vector(body.axis)}" if body.angle > 1e-12 else ""
         place = f"frame at {_vector(body.position)} m{turned}"
         bends = f", flexible: {body.modes}" if body.modes else ""
@@ -165,11 +162,8 @@ def _lines(facts: Check) -> Iterator[str]:
         yield f"  {freedom.words}{several}{remedy}"
     yield from _assembly_lines(facts)
     yield from _redundancy_lines(facts)
-    if facts.settings.coordinates == "relative":
-        cut = f"loops are closed at {', '.join(facts.cut)}" if facts.cut else "a tree, no joint is a constraint"
-        yield f"coordinates: relative, {cut}"
-    else:
-        yield f"coordinates: {facts.settings.coordinates}"
+    cut = f", loops are closed at {', '.join(facts.cut)}" if facts.cut else ", a tree, no joint is a constraint"
+    yield f"coordinates: {facts.settings.coordinates}{cut if facts.settings.coordinates == 'relative' else ''}"
     if facts.reason:
         yield f"method: {facts.settings.integrator}, because {facts.reason}"
 
@@ -186,22 +180,17 @@ def _beam_lines(beam: BeamFacts) -> Iterator[str]:
 
 
 def _frequency(value: float) -> str:
-    for factor, unit in ((1e6, "MHz"), (1e3, "kHz")):
-        if value >= factor:
-            return f"{value / factor:.3g} {unit}"
-    return f"{value:.3g} Hz"
+    factor, unit = next((each for each in ((1e6, "MHz"), (1e3, "kHz")) if value >= each[0]), (1.0, "Hz"))
+    return f"{value / factor:.3g} {unit}"
 
 
 def _assembly_lines(facts: Check) -> Iterator[str]:
-    if facts.moved:
-        if facts.gap > ROUND_OFF:
-            yield f"assembly: as given, {facts.gap_row} is open by {facts.gap:.3g}; closed by moving"
-        else:
-            yield "assembly: closed as given; the start values of joints move"
-        for name, distance, angle in _by_owner(facts, facts.moved):
-            yield f"  {name} by {distance:.3g} m and {np.degrees(angle):.3g} deg"
+    if facts.moved and facts.gap > ROUND_OFF:
+        yield f"assembly: as given, {facts.gap_row} is open by {facts.gap:.3g}; closed by moving"
     else:
-        yield "assembly: closed as given"
+        yield f"assembly: closed as given{'; the start values of joints move' if facts.moved else ''}"
+    for name, distance, angle in _by_owner(facts, facts.moved):
+        yield f"  {name} by {distance:.3g} m and {np.degrees(angle):.3g} deg"
     changed = tuple(each for each in facts.velocity_change if each[0] not in facts.followed)
     for name, speed, rate in _by_owner(facts, changed):
         yield f"  velocity of {name} changed by {speed:.3g} m/s and {rate:.3g} rad/s to fit the joints"
@@ -221,16 +210,16 @@ def _by_owner(facts: Check, changes: tuple[tuple[str, float, float], ...]) -> It
 
 
 def _redundancy_lines(facts: Check) -> Iterator[str]:
-    if facts.redundant_rows:
-        yield f"constraints: {facts.constraint_rows} rows, redundant: {', '.join(facts.redundant_rows)}"
-        yield f"  the motion does not depend on them; reactions are not unique in: {', '.join(facts.non_unique_joints)}"
-        if facts.reactions:
-            yield "  on their first bodies, along the axes of their first markers; ranges at the start: as one or another row is left out"
-            yield from (f"    {each}" for each in facts.reactions)
-        if facts.exact:
-            yield f"  exactly constrained, with the same degrees of freedom: {'; '.join(facts.exact)}"
-    else:
+    if not facts.redundant_rows:
         yield f"constraints: {facts.constraint_rows} rows, no redundant constraints, every reaction is unique"
+        return
+    yield f"constraints: {facts.constraint_rows} rows, redundant: {', '.join(facts.redundant_rows)}"
+    yield f"  the motion does not depend on them; reactions are not unique in: {', '.join(facts.non_unique_joints)}"
+    if facts.reactions:
+        yield "  on their first bodies, along the axes of their first markers; ranges at the start: as one or another row is left out"
+        yield from (f"    {each}" for each in facts.reactions)
+    if facts.exact:
+        yield f"  exactly constrained, with the same degrees of freedom: {'; '.join(facts.exact)}"
 
 
 def _vector(values: tuple[float, ...], digits: int = 6) -> str:

@@ -96,11 +96,8 @@ def circuit_remarks(components: tuple[Component, ...]) -> Said:
     """What fits badly together."""
     circuit = Circuit(components)
     for each in components:
-        yield from _reversed_pump(circuit, each)
-        yield from _reversed_valve(circuit, each)
-        yield from _leads_nowhere(circuit, each)
-        yield from _against_relief(circuit, each)
-        yield from _of_load_sensing(circuit, each)
+        for remarks in (_reversed_pump, _reversed_valve, _leads_nowhere, _against_relief, _of_load_sensing):
+            yield from remarks(circuit, each)
 
 
 def _of(component: Component, key: str, message: str) -> Finding:
@@ -120,18 +117,13 @@ def _reversed_pump(circuit: Circuit, each: Component) -> Said:
         what = f"the pump is reversed: it takes fluid from `{a}` and delivers it into the tank `{b}`"
         yield _of(each, "", f"{what}; A is its suction side: write `ports: {_swapped('A', 'B', each)}`")
     elif a in circuit.low:
-        key = "speed" if isinstance(each, Pump) else "flow"
-        given = each.speed if isinstance(each, Pump) else each.flow
+        key, example = ("speed", "1500 rpm") if isinstance(each, Pump) else ("flow", "40 L/min")
+        given = getattr(each, key)
         if isinstance(given, float | int) and given < 0.0:
-            yield _of(
-                each, key, f"the pump turns backwards and delivers into the tank `{a}`: write `{key}` without a minus"
-            )
+            what = f"the pump turns backwards and delivers into the tank `{a}`"
+            yield _of(each, key, f"{what}: write `{key}` without a minus")
         if isinstance(given, float | int) and given == 0.0:
-            yield _of(
-                each,
-                key,
-                f"the pump stands still; write for example `{key}: {'1500 rpm' if key == 'speed' else '40 L/min'}`",
-            )
+            yield _of(each, key, f"the pump stands still; write for example `{key}: {example}`")
 
 
 def _reversed_valve(circuit: Circuit, each: Component) -> Said:
@@ -147,10 +139,8 @@ def _reversed_valve(circuit: Circuit, each: Component) -> Said:
             and tank.pressure > LOW
             and tank.fluid is None
         ):
-            what = f"T leads to `{tank.name}`, which has {tank.pressure / BAR:.4g} bar"
-            yield _of(
-                each, "", f"{what}; a return line has a tank of low pressure: write `{{type: tank, pressure: 2 bar}}`"
-            )
+            what = f"T leads to `{tank.name}`, which has {tank.pressure / BAR:.4g} bar; a return line has a tank of low"
+            yield _of(each, "", f"{what} pressure: write `{{type: tank, pressure: 2 bar}}`")
     if isinstance(each, ReliefValve) and ports["P"] in circuit.low and ports["T"] not in circuit.low:
         what = f"it would open from the tank `{ports['P']}` to `{ports['T']}`"
         yield _of(each, "", f"the relief valve is reversed: {what}; write `ports: {_swapped('P', 'T', each)}`")
@@ -163,9 +153,8 @@ def _reversed_valve(circuit: Circuit, each: Component) -> Said:
         what = f"L is the side of the load, and `{ports['V']}` at V is a chamber"
         yield _of(each, "", f"the valve is reversed: {what}; write {_swapped('L', 'V', each)} in its `ports`")
     if isinstance(each, CounterbalanceValve) and ports["X"] == ports["L"]:
-        yield _of(
-            each, "", "its pilot X is its own load L; connect X to the other side of the actuator, such as `X: lift.B`"
-        )
+        advice = "connect X to the other side of the actuator, such as `X: lift.B`"
+        yield _of(each, "", f"its pilot X is its own load L; {advice}")
 
 
 def _leads_nowhere(circuit: Circuit, each: Component) -> Said:
@@ -232,11 +221,8 @@ def _flow_of(each: Pump | FlowSource) -> float:
 def _of_load_sensing(circuit: Circuit, each: Component) -> Said:
     if isinstance(each, LoadSensing):
         if not any(each.name in other.ports.values() for other in circuit.components):
-            yield _of(
-                each,
-                "",
-                f"nothing reads this signal; name it in the `ports` of a pump or a compensator: `LS: {each.name}`",
-            )
+            advice = f"name it in the `ports` of a pump or a compensator: `LS: {each.name}`"
+            yield _of(each, "", f"nothing reads this signal; {advice}")
         heard = set(each.valves)
         pumps = [x for x in circuit.components if isinstance(x, Pump) and x.ports.get("LS") == each.name]
         lines = {pump.ports["B"] for pump in pumps}
@@ -321,20 +307,16 @@ def _unfillable(machine: MachineRecord) -> Said:
     only_gas = len(gases) == len(machine.fluids) == 1
     filled = _filled(machine.hydraulics)
     for node, maker in makers(machine.hydraulics).items():
-        if node in filled or not isinstance(maker, Volume | Actuator) or _is_filled_by_hand(maker, node):
+        if node in filled or not isinstance(maker, Volume | Actuator):
             continue
-        if only_gas if maker.fluid is None else maker.fluid in gases:
-            continue  # a spring
-        which = "it" if isinstance(maker, Volume) else f"its chamber {node.rpartition('.')[2]}"
+        chamber = node.rpartition(".")[2]
+        start = maker.start if isinstance(maker, Volume) else getattr(maker, f"start_{chamber}")
+        if start is not None or (only_gas if maker.fluid is None else maker.fluid in gases):
+            continue  # filled by hand, or a spring
+        which = "it" if isinstance(maker, Volume) else f"its chamber {chamber}"
         advice = f"name `{node}` in the `ports` of a component through which fluid comes to it"
         message = f"nothing can flow into {which}, which stays as full as it is at the start; {advice}"
         yield _of(maker, "", message)
-
-
-def _is_filled_by_hand(maker: Volume | Actuator, node: str) -> bool:
-    """Whether the pressure that it is to keep is given."""
-    start = maker.start if isinstance(maker, Volume) else getattr(maker, f"start_{node.rpartition('.')[2]}")
-    return start is not None
 
 
 def _filled(components: Iterable[Component]) -> set[str]:

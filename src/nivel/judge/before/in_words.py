@@ -51,20 +51,12 @@ def driver_in_words(driver: Driver) -> str:
     """What is driven, and how."""
     if driver.is_pose:
         return f"{driver.name}: pose of {driver.marker} in {driver.relative_to or 'ground'}; {_pose_in_words(driver)}"
-    if driver.coordinate is not None:
-        driven = driver.coordinate
-    else:
-        seen = driver.relative_to or "ground"
-        driven = (
-            f"{driver.marker} along {driver.along} of {seen}"
-            if driver.along
-            else f"{driver.marker} about {driver.about} of {seen}"
-        )
+    way = f"along {driver.along}" if driver.along else f"about {driver.about}"
+    driven = driver.coordinate or f"{driver.marker} {way} of {driver.relative_to or 'ground'}"
     placed = "as placed + change of " if driver.from_start else ""
-    if driver.speed is not None:
-        return f"{driver.name}: {driven}, speed = {function_in_words(driver.speed)}"
-    if driver.acceleration is not None:
-        return f"{driver.name}: {driven}, acceleration = {function_in_words(driver.acceleration)}"
+    for rate, function in (("speed", driver.speed), ("acceleration", driver.acceleration)):
+        if function is not None:
+            return f"{driver.name}: {driven}, {rate} = {function_in_words(function)}"
     assert driver.value is not None  # the record was checked
     return f"{driver.name}: {driven} = {placed}{function_in_words(driver.value)}"
 
@@ -76,9 +68,8 @@ def _pose_in_words(driver: Driver) -> str:
         said.append(f"position {', '.join(map(function_in_words, driver.position))}")
     if driver.orientation is not None:
         axes, functions = driver.orientation.turns
-        said.append(
-            f"{f'turns about {axes}' if axes else 'Euler parameters'} {', '.join(map(function_in_words, functions))}"
-        )
+        numbers = f"turns about {axes}" if axes else "Euler parameters"
+        said.append(f"{numbers} {', '.join(map(function_in_words, functions))}")
     return "; ".join(said)
 
 
@@ -116,10 +107,8 @@ def _acts_on(machine: MachineRecord, force: ForceElement) -> str:
             return " and ".join(pair)
         case Contacts():
             planes = f" and {len(force.planes)} plane{'s' if len(force.planes) > 1 else ''}" if force.planes else ""
-            creeps = (
-                "; bodies at rest creep, `friction_model: stiction` holds up to 15 of them" if force.friction else ""
-            )
-            return f"{len(spheres_between(machine, force))} spheres{planes}{creeps}"
+            creeps = "; bodies at rest creep, `friction_model: stiction` holds up to 15 of them"
+            return f"{len(spheres_between(machine, force))} spheres{planes}{creeps if force.friction else ''}"
     if (wheel := getattr(force, "wheel", None)) is not None:
         return f"{body(wheel)} and {body(getattr(force, 'plane', ''))}; {getattr(force, 'source', '')}"
     return str(getattr(force, "coordinate", None) or getattr(force, "body", ""))
@@ -162,11 +151,8 @@ def state_in_words(state: State) -> str:
 def component_in_words(component: Component) -> str:
     """Type of a component of a circuit, and where its ports are connected."""
     ports = ", ".join(f"{port} to {node}" for port, node in component.ports.items())
-    on = (
-        f" on {' and '.join(end if isinstance(end, str) else end.body for end in component.ends)}"
-        if isinstance(component, Ends)
-        else ""
-    )
+    ends = component.ends if isinstance(component, Ends) else ()
+    on = f" on {' and '.join(end if isinstance(end, str) else end.body for end in ends)}" if ends else ""
     size = ""
     if isinstance(component, Volume) and "volume" not in component.model_fields_set:
         size = f" of {1e3 * component.volume:g} L, as none is given"
@@ -176,9 +162,8 @@ def component_in_words(component: Component) -> str:
 def event_in_words(event: Event) -> str:
     """When an event is, and whether it ends the run."""
     way = "" if event.direction == "both" else f", {event.direction}"
-    return (
-        f"{event.name}: {function_in_words(event.when)} passes zero{way}{'; the run ends there' if event.stop else ''}"
-    )
+    end = "; the run ends there" if event.stop else ""
+    return f"{event.name}: {function_in_words(event.when)} passes zero{way}{end}"
 
 
 def block_in_words(block: Block) -> str:

@@ -68,10 +68,10 @@ def faults_of(machine: MachineRecord, refusals: Iterable[Refusal]) -> Iterator[F
 
 def rolling(instead: str) -> Refusal:
     """Of every wheel: it ties velocities, so positions alone do not say how it may move. instead : what to do, in words."""
-    reason = (
-        "'rolling' without slip constrains velocities, not positions, so the position of a wheel depends on its path"
+    reason = "constrains velocities, not positions, so the position of a wheel depends on its path"
+    return Refusal(
+        "joints", "type", lambda joint: joint.type == "rolling", f"'rolling' without slip {reason}: {instead}"
     )
-    return Refusal("joints", "type", lambda joint: joint.type == "rolling", f"{reason}: {instead}")
 
 
 def deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array) -> Iterator[Fault]:
@@ -140,23 +140,18 @@ def stiction_over_steps(machine: MachineRecord) -> Iterator[Fault]:
     """Stiction is a law of the acceleration at a time, of which a balance over a whole step knows nothing."""
     integrator = machine.simulation.integrator
     for force in filter(is_sticking, machine.forces if INTEGRATORS[integrator].needs == "whole steps" else ()):
+        key = _key_of_model(force)
+        instead = {"model": "`model: lugre`", "type": "leave it out"}.get(key, "`friction_model: coulomb`")
         yield Fault.at(
-            f"forces.{force.name}.{_key_of_model(force)}",
+            f"forces.{force.name}.{key}",
             f"'stiction' does not go with `integrator: {integrator}`, which balances momenta over whole steps, while sticking depends on "
-            f"the acceleration at a time: use generalised-alpha, or {_instead_of_stiction(force)}",
+            f"the acceleration at a time: use generalised-alpha, or {instead}",
         )
 
 
 def _key_of_model(force: ForceElement) -> str:
     """Where a force says how its friction goes."""
     return "model" if isinstance(force, Friction) else "type" if holds_by_capacity(force) else "friction_model"
-
-
-def _instead_of_stiction(force: ForceElement) -> str:
-    """What to write for friction that does not stick."""
-    if holds_by_capacity(force):
-        return "leave it out"
-    return "`model: lugre`" if isinstance(force, Friction) else "`friction_model: coulomb`"
 
 
 def conserved_drivers(machine: MachineRecord) -> Iterator[Fault]:
@@ -198,23 +193,17 @@ def _motions(machine: MachineRecord) -> Iterator[tuple[str, Expression | Table |
     """The functions by which drivers move a machine, each with its place in the file: `drivers.lift.value`, or the list where it stands."""
     for driver in machine.drivers:
         for place, function in functions_in(driver):
-            if place in RATES:
-                continue
-            yield f"drivers.{driver.name}.{place if place == 'value' else place.rpartition('.')[0] or place}", function
+            if place not in RATES:
+                key = place if place == "value" else place.rpartition(".")[0] or place
+                yield f"drivers.{driver.name}.{key}", function
 
 
 def friction_at_jumps(machine: MachineRecord) -> Iterator[Fault]:
     """Friction loaded by reactions where the speed of a driver jumps: the impulse through the joints would ask for one of friction."""
     end = machine.simulation.duration
-    jumping = [
-        owner.split(".")[1]
-        for owner, motion in _motions(machine)
-        if isinstance(motion, Table)
-        and (
-            motion.ends_before(end)
-            or (motion.interpolation == "linear" and min(corners_of(motion, end), default=end) < end)
-        )
-    ]
+    tables = [(owner.split(".")[1], motion) for owner, motion in _motions(machine) if isinstance(motion, Table)]
+    corners = {name: table.interpolation == "linear" and corners_of(table, end) for name, table in tables}
+    jumping = [name for name, table in tables if table.ends_before(end) or min(corners[name] or (end,)) < end]
     loaded = [
         force.name
         for force in machine.forces
@@ -247,25 +236,20 @@ def _jump_of(table: Table, settings: SimulationSettings) -> str:
     return ""
 
 
-def _lumped(machine: MachineRecord) -> str:
-    """How the beams of a machine would have masses of single bodies, in words."""
-    if any(beam.has_gradients for beam in machine.beams):
-        return "beams of `model: segments`, or geometrically-exact ones of `mass: lumped`"
-    return "`mass: lumped` for the beams"
-
-
 def shared_mass(machine: MachineRecord, formulation: str, coordinates: str) -> Iterator[Fault]:
     """Methods that need a mass matrix of single bodies, for beams of consistent mass."""
     if not machine.shares_mass:
         return
     names = ", ".join(beam.name for beam in machine.beams if beam.shares_mass)
-    why = f"does not go with the consistent mass of {names}: take {{}}, or {_lumped(machine)}"
+    gradients = ", ".join(f"the {beam.model} {beam.name}" for beam in machine.beams if beam.has_gradients)
+    exact = "beams of `model: segments`, or geometrically-exact ones of `mass: lumped`"
+    lumped = exact if gradients else "`mass: lumped` for the beams"
+    why = f"does not go with the consistent mass of {names}: take {{}}, or {lumped}"
     integrator = machine.simulation.integrator
     if coordinates not in ("absolute", "relative"):
         yield Fault.at("simulation.coordinates", f"'{coordinates}' {why.format('absolute or relative')}")
     if formulation != "newton-euler":
         yield Fault.at("simulation.formulation", f"'{formulation}' {why.format('newton-euler')}")
-    gradients = ", ".join(f"the {beam.model} {beam.name}" for beam in machine.beams if beam.has_gradients)
     if INTEGRATORS[integrator].needs == "whole steps" and gradients:
         yield Fault.at(
             "simulation.integrator",
@@ -333,14 +317,9 @@ def uncertain_loads(
             continue
         rows, screws = redundancy.redundant_rows, list(screws_as_couplings(machine, redundancy.non_unique_joints))
         written = " and ".join(f"in place of the joint {name} under `couplings` `{line}`" for name, line in screws)
-        changes = "" if screws else " and ".join(exact())
-        how = (
-            f"write {written}"
-            if screws
-            else f"make {changes}"
-            if changes
-            else "replace joints until no constraint is redundant"
-        )
+        how = f"write {written}" if screws else "replace joints until no constraint is redundant"
+        if not screws and (changes := exact()):
+            how = f"make {' and '.join(changes)}"
         yield Fault.at(
             f"forces.{force.name}.coordinate",
             f"the reaction of {joint}, which loads this friction, is not unique: {', '.join(rows)} "
@@ -355,9 +334,8 @@ def rolling_by_positions(machine: MachineRecord, coordinates: str) -> Iterator[F
     feeds_back = FORMULATIONS[settings.formulation].factor > 0.0
     closes_positions = settings.stabilisation == "none" and not feeds_back and coordinates != "independent"
     if integrator.needs == "whole steps":
-        yield from rolling(f"{name} solves position constraints only; use generalised-alpha, radau or rk4").faults(
-            machine
-        )
+        instead = f"{name} solves position constraints only; use generalised-alpha, radau or rk4"
+        yield from rolling(instead).faults(machine)
     elif integrator.needs == "accelerations" and closes_positions:
         instead = f"with 'none' the multipliers of {name} close positions alone (index 3); take `stabilisation: direct`"
         yield from rolling(instead).faults(machine)

@@ -93,10 +93,8 @@ def _idle(element: Record, place: str) -> Iterator[Finding]:
         yield Finding(f"{place}.time_constant", "`time_constant` has no effect with a `sample_time`; leave it out")
     for name in given:
         value = getattr(element, name)
-        held = (
-            value.items() if isinstance(value, Mapping) else enumerate(value if isinstance(value, tuple) else (value,))
-        )
-        for at, each in held:
+        several = value if isinstance(value, tuple) else (value,)
+        for at, each in value.items() if isinstance(value, Mapping) else enumerate(several):
             if isinstance(each, Record):
                 yield from _idle(each, f"{place}.{name}" if each is value else f"{place}.{name}.{at}")
 
@@ -168,11 +166,8 @@ def _hollow(machine: MachineRecord) -> Iterator[Finding]:
                 continue
             share = share_of_hull(shape)
             if share < HOLLOW:
-                advice = (
-                    "give the shape `convex_parts: 8`"
-                    if isinstance(shape, Mesh)
-                    else "divide it into bodies with `fixed` joints, or take a mesh with `convex_parts`"
-                )
+                advice = "divide it into bodies with `fixed` joints, or take a mesh with `convex_parts`"
+                advice = "give the shape `convex_parts: 8`" if isinstance(shape, Mesh) else advice
                 message = f"`{name}` is concave, and its hull touches, of which it fills {100 * share:.0f} %; {advice}"
                 yield Finding(f"forces.{force.name}", message)
 

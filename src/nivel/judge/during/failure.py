@@ -36,6 +36,7 @@ FOR_STIFF = ("radau", "bdf")
 KINEMATICS = "kinematics"
 # A step above this share of the time is not one that became too small to be told from none.
 TINY = 1e-9
+OF_UNIT = "Look at what the unit is given, and at its own messages; `nivel run --allow-code` runs it as it is."
 # What a method ends with where a force jumps.
 NO_STEP = (Status.NOT_CONVERGED, Status.STEP_TOO_SMALL)
 
@@ -44,7 +45,8 @@ NO_STEP = (Status.NOT_CONVERGED, Status.STEP_TOO_SMALL)
 def failure(stop: Stop) -> Told:
     """(message, advice) of a run that failed."""
     status = Status(stop.status)
-    told = _failed_unit(stop) or next(filter(None, (tell(stop) for tell in FAILURES[status])))
+    unit = next(filter(None, (unit.failure for unit in stop.motion.system.units)), "")
+    told = (unit, OF_UNIT) if unit else next(filter(None, (tell(stop) for tell in FAILURES[status])))
     # an iteration on the rates of the state that does not converge says itself what to do
     iterated = status == Status.NOT_CONVERGED and not len(stop.motion.system.record.residual.vdot)
     if not stop.chosen_by and not iterated and (grown := grown_motion(stop.motion, stop.time, stop.step, stop.y)):
@@ -54,14 +56,6 @@ def failure(stop: Stop) -> Told:
     if status in NO_STEP and stop.jumping:
         advice = f"{jump_advice(stop.jumping)} {advice}"
     return f"stopped at t = {stop.time:.6g} s: {message}", advice
-
-
-def _failed_unit(stop: Stop) -> Told | None:
-    """A unit of another program."""
-    said = next(filter(None, (unit.failure for unit in stop.motion.system.units)), "")
-    if not said:
-        return None
-    return said, "Look at what the unit is given, and at its own messages; `nivel run --allow-code` runs it as it is."
 
 
 def _broken(stop: Stop) -> Told | None:
@@ -77,6 +71,10 @@ def _out_of_reach(stop: Stop) -> Told:
         f"Is a unit wrong, of gravity, a mass, a stiffness or a load? Vibrations that do not matter ask for {stiff}. "
         f"If the motion is meant, take a shorter `duration`.",
     )
+
+
+def _crawls(stop: Stop) -> Told:
+    return f"steps have shrunk to {stop.step:.2g} s, and the end is out of reach", jump_advice(stop.jumping)
 
 
 def _named(kind: Callable[[System], Sequence[str]], message: str, advice: str) -> Callable[[Stop], Told | None]:
@@ -130,37 +128,30 @@ def _met(stop: Stop) -> Told | None:
     if not stop.chosen_by or not stop.step > TINY * max(stop.time, 1e-300):
         return None
     row = stop.motion.system.rows[stop.number]
-    message = (
+    return (
         f"the constraint {row} depends on the others at the end of the step of some {stop.step:.2g} s from here, or in a frame inside it: "
-        f"there the machine is in a singular position, and reactions cannot be found"
-    )
-    advice = (
+        f"there the machine is in a singular position, and reactions cannot be found",
         f"Steps pass it, but nothing can be stored in it: another `output_interval` does, when no frame falls there. Or move a joint by a "
-        f"small amount so that the machine does not pass through it exactly: look at {owner_of(row)}."
+        f"small amount so that the machine does not pass through it exactly: look at {owner_of(row)}.",
     )
-    return message, advice
 
 
 def _singular(stop: Stop) -> Told | None:
     row = stop.motion.system.rows[stop.number]
     healthy = stop.motion.holds(stop.time, stop.y) and is_far_from_singular(stop.motion)
     if healthy or has_drifted(stop.motion):
-        message = (
+        return (
             f"a step of {stop.step:.3g} s from here leads to a position that the machine does not have "
-            f"({row} depends on the other constraints there); {worst_row(stop.motion)}"
-        )
-        advice = (
+            f"({row} depends on the other constraints there); {worst_row(stop.motion)}",
             f"The step is too large for this motion, or a force too stiff for it: try --step {stop.step / 10:.3g}. If it stops near "
-            f"this time again, the machine comes to a singular position there: look at {owner_of(row)}."
+            f"this time again, the machine comes to a singular position there: look at {owner_of(row)}.",
         )
-        return message, advice
-    message = f"the constraint {row} depends on the others here, the machine is in a singular position"
-    advice = (
+    return (
+        f"the constraint {row} depends on the others here, the machine is in a singular position",
         f"Look at {owner_of(row)} in this position: two links in line, or a loop folded flat? Start the run elsewhere, "
         f"or move a joint by a small amount so that the machine does not pass through it exactly. "
-        f"A body whose inertia is many orders too small for its mass looks the same."
+        f"A body whose inertia is many orders too small for its mass looks the same.",
     )
-    return message, advice
 
 
 _no_mass_left = _named(
@@ -191,13 +182,12 @@ def _open(stop: Stop) -> Told | None:
         if stop.status == Status.NOT_CLOSED
         else "are open by a tenth of the machine, or of their directions"
     )
-    message = f"after a step of {stop.step:.3g} s from here joints {found}; {worst_row(stop.motion)}"
-    advice = (
+    return (
+        f"after a step of {stop.step:.3g} s from here joints {found}; {worst_row(stop.motion)}",
         f"The step is too long for this motion, or a driver pulls the machine to where it cannot follow: try --step "
         f"{stop.step / 10:.3g}. If it stops near this time again, the machine jams in a singular position: look at what the drivers "
-        f"prescribe."
+        f"prescribe.",
     )
-    return message, advice
 
 
 def _contradiction(stop: Stop) -> Told | None:
@@ -211,20 +201,17 @@ def _contradiction(stop: Stop) -> Told | None:
         f"(open by {system.record.constraints.C[stop.number]:.3g}); it should follow from {', '.join(owners)}"
     )
     if any(system.rows[row].endswith((".driver", ".coupling")) for row in (*repeated, stop.number)):
-        advice = (
-            "Do two drivers, or a driver and the joints or couplings around it, prescribe the same motion differently? Remove one of "
-            "them."
+        same = (
+            "Do two drivers, or a driver and the joints or couplings around it, prescribe the same motion differently?"
         )
-    elif control.stabilise[2] > 0.0:
-        advice = (
+        return message, f"{same} Remove one of them."
+    if control.stabilise[2] > 0.0:
+        return message, (
             "The joints fit together where the run started, and not here: is the loop, by its lengths and axes, mobile everywhere? "
             f"`nivel check` proposes joints with which nothing is redundant. With --step {stop.step / 10:.3g} an error of steps is smaller."
         )
-    else:
-        advice = (
-            f"That is drift: take --stabilisation direct, which closes all constraints, or --step {stop.step / 10:.3g}."
-        )
-    return message, advice
+    closes = "take --stabilisation direct, which closes all constraints"
+    return message, f"That is drift: {closes}, or --step {stop.step / 10:.3g}."
 
 
 def _slow_multipliers(stop: Stop) -> Told | None:
@@ -234,15 +221,12 @@ def _slow_multipliers(stop: Stop) -> Told | None:
         stop.motion.system.rows[saddle.row[saddle.order[int(pick(diagonal))]]] for pick in (np.argmin, np.argmax)
     )
     iterations = int(stop.motion.system.record.control.iterations[0])
-    message = (
+    return (
         f"the augmented Lagrangian finds no multipliers within {iterations} iterations: what {slow} and {fast} move, or what they depend "
-        f"on, differs too much in mass"
-    )
-    advice = (
+        f"on, differs too much in mass",
         "Try a greater `penalty: {factor: 1e8}` or more `iterations`; `formulation: newton-euler` needs neither. Constraints that "
-        "contradict each other look the same."
+        "contradict each other look the same.",
     )
-    return message, advice
 
 
 def _fast_bristles(stop: Stop) -> Told | None:
@@ -251,15 +235,12 @@ def _fast_bristles(stop: Stop) -> Told | None:
     rate = record.coordinates.rate[int(record.friction.columns[stop.number, columns.COORDINATE])]
     speed = abs(float(rate * numbers[columns.ARM]))
     relaxation = numbers[columns.STIFFNESS] * speed / numbers[columns.KINETIC]
-    message = (
+    return (
         f"the bristles of {name} relax with the rate bristle_stiffness v/coefficient = {relaxation:.3g}/s at the speed "
-        f"{speed:.3g} m/s, faster than a step of {stop.step:.3g} s can follow; the friction would be wrong from here on"
-    )
-    advice = (
+        f"{speed:.3g} m/s, faster than a step of {stop.step:.3g} s can follow; the friction would be wrong from here on",
         f"The step has to be below 2.7 coefficient/(bristle_stiffness v): try --step {1.5 / relaxation:.2g} or, for higher speeds to "
-        f"come, less; or a smaller bristle_stiffness of {name}; or `model: stiction`."
+        f"come, less; or a smaller bristle_stiffness of {name}; or `model: stiction`.",
     )
-    return message, advice
 
 
 def _off_rail(stop: Stop) -> Told | None:
@@ -290,13 +271,9 @@ def _no_solution(stop: Stop) -> Told | None:
     message = f"Newton's iteration finds no solution within a step of {stop.step:.3g} s: it stalls at {stalled}; {worst_row(stop.motion)}"
     record = stop.motion.system.record
     iterated = len(record.newton.compliance) > 0 and record.control.iterations[0] > 1
-    settle = (
-        "Multipliers of bodies that differ much in mass settle with a greater `penalty: {factor: 1e8}`. "
-        if iterated
-        else ""
-    )
+    settle = "Multipliers of bodies that differ much in mass settle with a greater `penalty: {factor: 1e8}`. "
     or_direct = "" if len(record.residual.interval.start) else ", or direct"
-    return message, settle + (
+    return message, (settle if iterated else "") + (
         f"Try --step {stop.step / 4:.3g}, or a method that makes steps as short as it takes: radau, or generalised-alpha with "
         f"--step-control error. With `stabilisation: none` round-off may keep it from its tolerance: then `corrector: {{tolerance: "
         f"1e-8}}`{or_direct}. If it stops here again, the machine comes to a position that it cannot pass, or a force jumps: look "
@@ -306,55 +283,41 @@ def _no_solution(stop: Stop) -> Told | None:
 
 def _not_converged(stop: Stop) -> Told | None:
     stop.evaluate()
-    message = (
+    return (
         f"the iteration of the corrector does not converge within a step of {stop.step:.3g} s: the motion changes too much in it, or a "
-        f"force is too stiff; {worst_row(stop.motion)}"
-    )
-    advice = (
+        f"force is too stiff; {worst_row(stop.motion)}",
         f"Try --step {stop.step / 10:.3g}; or, where `iteration: functional`, `corrector: {{iteration: newton}}`, which stiff forces do "
-        f"not limit. With a tolerance near round-off (1e-13) no iteration may come to an end: then a larger `tolerance` of `corrector`."
+        f"not limit. With a tolerance near round-off (1e-13) no iteration may come to an end: then a larger `tolerance` of `corrector`.",
     )
-    return message, advice
 
 
 def _not_a_number(stop: Stop) -> Told | None:
     stop.evaluate()
-    broken = broken_signals(stop.motion)
-    if broken:
-        message = f"{', '.join(broken)} {'is' if len(broken) == 1 else 'are'} no longer a number"
-        return (
-            message,
-            "Look at what the block is given: a root or logarithm of a negative number, a division by zero.",
-        )
-    message = f"the state after a step of {stop.step:.3g} s is no longer a number; {worst_row(stop.motion)}"
-    advice = f"Try a smaller step, for instance --step {stop.step / 10:.3g}; if it stops at the same time, look at the forces near it."
-    return message, advice
+    if broken := broken_signals(stop.motion):
+        advice = "Look at what the block is given: a root or logarithm of a negative number, a division by zero."
+        return f"{', '.join(broken)} {'is' if len(broken) == 1 else 'are'} no longer a number", advice
+    return (
+        f"the state after a step of {stop.step:.3g} s is no longer a number; {worst_row(stop.motion)}",
+        f"Try a smaller step, for instance --step {stop.step / 10:.3g}; if it stops at the same time, look at the forces near it.",
+    )
 
 
 def _drift(stop: Stop) -> Told:
     """Where a row of a redundant machine that repeats no other one opens."""
     system = stop.motion.system
-    message = (
+    return (
         f"{named_row(system, stop.number)} is open by {system.record.constraints.C[stop.number]:.3g} {unit_of(system, stop.number)}: what "
-        f"steps of {stop.step:.3g} s miss of this motion has added up"
-    )
-    advice = (
+        f"steps of {stop.step:.3g} s miss of this motion has added up",
         f"Try --step {stop.step / 10:.3g}, or --stabilisation direct, which closes constraints. If it is a linkage with more joints than "
-        f"it needs, beside a position where its motion branches, --coordinates absolute or --integrator rk4 pass it."
+        f"it needs, beside a position where its motion branches, --coordinates absolute or --integrator rk4 pass it.",
     )
-    return message, advice
 
 
 # what is not a number spoils pivots as well, so it is looked for first
 _FIRST: Final = (_broken, lambda stop: too_fast(stop.beams, stop.step))
 FAILURES: Final[dict[Status, tuple[Callable[[Stop], Told | None], ...]]] = {
     Status.OUT_OF_REACH: (_out_of_reach,),
-    Status.CRAWLS: (
-        lambda stop: (
-            f"steps have shrunk to {stop.step:.2g} s, and the end is out of reach",
-            jump_advice(stop.jumping),
-        ),
-    ),
+    Status.CRAWLS: (_crawls,),
     Status.SINGULAR: (*_FIRST, _mass_used_up, _met, _no_step, _singular),
     Status.NOT_FINITE: (*_FIRST, _mass_used_up, _no_step, _not_a_number),
     Status.FRICTION_DIVERGES: (

@@ -45,7 +45,9 @@ def grown_motion(motion: MotionEquations, time: float, step: float, y: Array) ->
     mass = float(bodies.mass.sum())
     known = max(abs(start), mass * float(np.linalg.norm(bodies.gravity)) * system.size)
     slow = kinetic <= 0.5 * mass * (system.size / step) ** 2
-    stored, damped = float(control.stored[0]), step * _damping_power(system)
+    frictions = [value for name, value in _outputs(system, "power") if name in system.frictions]
+    power = float(control.power[1]) + sum(frictions)  # what dampers take
+    stored, damped = float(control.stored[0]), step * power if np.isfinite(power) else np.inf
     fast = max(stored, damped)
     if slow or fast <= GROWN * known or abs(gained) <= max(GROWN * known, OF_WORK * abs(work)):
         return None
@@ -53,23 +55,13 @@ def grown_motion(motion: MotionEquations, time: float, step: float, y: Array) ->
     kind, strongest = ("decay", "takes most power") if decays else ("vibration", "is largest")
     pulls = _most(system, "power" if decays else "magnitude")
     gain = f"{abs(gained):.2g} J" if np.isfinite(gained) else "more energy than a number can hold,"
-    message = (
-        f"{UNBOUND}: the machine has {gain} that no load gave it. A step of {step:.3g} s is too long for its "
-        f"fastest {kind}{pulls and f', and {pulls} is the force that {strongest}'}"
-    )
     stiff, over = ("damper", "decays") if decays else ("spring", "vibrations")
-    advice = (
+    return (
+        f"{UNBOUND}: the machine has {gain} that no load gave it. A step of {step:.3g} s is too long for its "
+        f"fastest {kind}{pulls and f', and {pulls} is the force that {strongest}'}",
         f"Try --step {step / 10:.3g}, and less for a stiffer {stiff} or a lighter body; or a method that steps over fast "
-        f"{over}: radau, generalised-alpha, or ros2 with --coordinates relative."
+        f"{over}: radau, generalised-alpha, or ros2 with --coordinates relative.",
     )
-    return message, advice
-
-
-def _damping_power(system: System) -> float:
-    """What dampers take from the machine in the state last evaluated, frictions not counted [W]; infinite beyond all numbers."""
-    frictions = [value for name, value in _outputs(system, "power") if name in system.frictions]
-    power = float(system.record.control.power[1]) + sum(frictions)
-    return power if np.isfinite(power) else np.inf
 
 
 def _most(system: System, output: str) -> str:
@@ -182,11 +174,8 @@ def held_step(integrator: str, rate: float) -> float:
 
 def fastest_beyond(prepared: Prepared, integrator: str, step: float, time: float, last: Array) -> Fastest | None:
     """The fastest rate at the start, or at time [s] in the `last` state, where a step [s] does not hold it; None where both are held."""
-    for t, y in ((0.0, prepared.start), (time, last)):
-        found = fastest(prepared.motion, t, y)
-        if found is not None and step > held_step(integrator, found.rate):
-            return found
-    return None
+    rates = (fastest(prepared.motion, t, y) for t, y in ((0.0, prepared.start), (time, last)))
+    return next((each for each in rates if each is not None and step > held_step(integrator, each.rate)), None)
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of a state that may be beyond all bounds
@@ -195,8 +184,7 @@ def fastest(motion: MotionEquations, t: float, y: Array) -> Fastest | None:
     count = len(y) - 2  # energies follow from the others
     if not 0 < count <= MOST_ENTRIES or not np.isfinite(y).all():
         return None
-    steps = increments(motion, y)
-    A = np.zeros((count, count))
+    steps, A = increments(motion, y), np.zeros((count, count))
     for k in range(count):
         ends = [_rate(motion, t, y, k, side * steps[k]) for side in (1.0, -1.0)]
         if ends[0] is None or ends[1] is None:
@@ -219,16 +207,10 @@ def fastest(motion: MotionEquations, t: float, y: Array) -> Fastest | None:
 
 def increments(motion: MotionEquations, y: Array) -> Array:
     """(n,) of the entries of y without its energies, for differences."""
-    count = len(y) - 2
-    return SHARE * np.maximum(np.abs(y[:count]), _scales(motion, count))
-
-
-def _scales(motion: MotionEquations, count: int) -> Array:
-    """What increments of the entries of y are measured by, at least."""
-    facts = motion.system.states
+    facts, count = motion.system.states, len(y) - 2
     scales = np.full(count, motion.system.size)
     scales[count - len(facts) :] = [fact.scale if fact.relative else 0.0 for fact in facts]
-    return np.maximum(scales, TINY)
+    return SHARE * np.maximum(np.abs(y[:count]), np.maximum(scales, TINY))
 
 
 def _taking_part(motion: MotionEquations, parts: Array) -> str:

@@ -61,10 +61,8 @@ class Jam:
     @property
     def message(self) -> str:
         """When and where the machine jams."""
-        verb = "are" if len(self.drivers) > 1 else "is"
-        held = f"{_listed(self.drivers)} {verb} held by {_listed(self.joints)}"
-        if not self.drivers:
-            held = f"{_listed(self.joints)} depend on each other"
+        held = f"{_listed(self.drivers)} {'are' if len(self.drivers) > 1 else 'is'} held by {_listed(self.joints)}"
+        held = held if self.drivers else f"{_listed(self.joints)} depend on each other"
         places = f" There {_listed(self.places)}." if self.places else ""
         return (
             f"the machine jams at t = {self.time:.6g} s, in a singular position beyond which its joints cannot be closed: there {held}."
@@ -74,8 +72,8 @@ class Jam:
     @property
     def advice(self) -> str:
         """What to try."""
-        verb = "prescribe" if len(self.drivers) > 1 else "prescribes"
-        what = f"what {_listed(self.drivers)} {verb}" if self.drivers else "how they move with time"
+        prescribed = f"what {_listed(self.drivers)} prescribe{'s' * (len(self.drivers) == 1)}"
+        what = prescribed if self.drivers else "how they move with time"
         return (
             f"Look at {what} against the lengths between {_listed(self.joints)}: let it stop or turn back before t = {self.time:.4g} s, or "
             "drive another coordinate. No step and no method goes on from there."

@@ -132,11 +132,8 @@ def broken_signals(motion: MotionEquations) -> list[str]:
     """Signals of the control that are no numbers in the state last evaluated."""
     values = motion.system.record.outputs.value
     names = [variable.name for variable in reported(motion.system.layout, len(values))]
-    return [
-        name
-        for name, value in zip(names, values, strict=True)
-        if name.startswith("control.") and not np.isfinite(value)
-    ][:3]
+    broken = [name for name, value in zip(names, values, strict=True) if not np.isfinite(value)]
+    return [name for name in broken if name.startswith("control.")][:3]
 
 
 def has_drifted(motion: MotionEquations) -> bool:
@@ -196,11 +193,7 @@ def broken_function(motion: MotionEquations, time: float, step: float, y: Array)
             continue
         motion.evaluate(at, aside)
         broken = [f"the force {name}" for k, name in magnitudes if not np.isfinite(outputs[k])]
-        known = (
-            np.isfinite(constraints.C[rows])
-            & np.isfinite(constraints.Cdot[rows])
-            & np.isfinite(constraints.gamma[rows])
-        )
+        known = np.isfinite([constraints.C[rows], constraints.Cdot[rows], constraints.gamma[rows]]).all(axis=0)
         broken += [f"the motion of {owner_of(system.rows[row])}" for row in rows[~known]]
         if broken:
             name = broken[0].split()[-1]

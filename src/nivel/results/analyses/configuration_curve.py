@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.files.target import written
 from nivel.lazy import dataclass, field, xarray
+from nivel.machine.core.vectors import Array
 from nivel.results.frames.tabulated import Tabulated
 from nivel.results.trust import Trust
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

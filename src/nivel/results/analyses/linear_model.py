@@ -15,6 +15,7 @@ from nivel.errors import ModelError
 from nivel.extras import needed
 from nivel.files.target import write_text
 from nivel.lazy import dataclass, field, nivel, provided, scipy, xarray
+from nivel.machine.core.vectors import Array
 from nivel.results.analyses.sampled_model import SampledModel, participation, taking_part
 from nivel.results.frames.tabulated import Column, Rows, Tabulated, chosen
 from nivel.results.trust import Trust
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     from nivel.results.result import Result
     from nivel.view.page import Inline
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 ROUND_OFF: Final = 1e-11  # share of an eigenvalue below which its real part is nothing, however well it is known
 FREQUENCIES: Final = 400

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.lazy import dataclass, scipy
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 ROUND_OFF: Final = 1e-7  # by which a pole on the unit circle may be outside
 SHOWN: Final = 3  # states that are named with a pole or a mode

@@ -235,16 +235,5 @@ CHECKS = (
     Check("accuracy", Run, look_at_error, say_error, 80, (VERIFIED, FRAMES), "Accuracy", ACCURACY, last=True),
     Check("verified", Run, look_at_end, say_end, 90, (VERIFIED,), "Verified"),
     Check("sensitivity", Run, look_at_growth, say_growth, 340, (SECOND_RUN,), "Sensitivity"),
-    Check(
-        "rounding",
-        Run,
-        look_at_rounding,
-        say_rounding,
-        240,
-        (STEPS,),
-        "Round-off",
-        ROUNDING,
-        blind=FAR_AWAY,
-        quiet=True,
-    ),
+    Check("rounding", Run, look_at_rounding, say_rounding, 240, (STEPS,), "Round-off", ROUNDING, FAR_AWAY, quiet=True),
 )

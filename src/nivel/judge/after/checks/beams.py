@@ -195,16 +195,5 @@ def say_buckling(found: OtherStability | Softened) -> Item:
 
 CHECKS = (
     Check("beam_mesh", Run, look_at_mesh, say_mesh, 280, (STEPS,), "Mesh", MESH, line="mesh", quiet=True),
-    Check(
-        "near_buckling",
-        Equilibria,
-        look_at_buckling,
-        say_buckling,
-        284,
-        (OTHERS, FRAMES),
-        "Mesh",
-        MESH,
-        line="mesh",
-        quiet=True,
-    ),
+    Check("near_buckling", Equilibria, look_at_buckling, say_buckling, 284, (OTHERS, FRAMES), line="mesh", quiet=True),
 )

@@ -14,11 +14,12 @@ from nivel.judge.after.passages import LEAST_FRAMES, Passage, Track, can_be_sing
 from nivel.judge.after.report import SECOND_RUN, STEPS, Check
 from nivel.judge.after.subject import Run
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 from nivel.results.scales import Readable
 from nivel.results.trust import Item
 
 SHOWN = 5  # times in a sentence
-SEVERAL_WAYS = "at t = {time} s the motion may continue in more than one way"
+SEVERAL = "at t = {time} s the motion may continue in more than one way"
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,6 @@ def say_unsearched(found: Unsearched) -> Item:
     return Item("unexamined", "green", f"Not examined: singular positions that the machine may pass: {found.why}")
 
 
-Array = NDArray[np.float64]
 # A jump is this share of the largest velocities there, and so many times the usual one around it.
 JUMP, UNUSUAL, AROUND = 1e-2, 20.0, 5
 SHORT = 1e-4  # of the usual longest step: steps are very short
@@ -179,9 +179,7 @@ CHANGED = "at t = {time} s one of them changes the branch of its motion"
 
 
 CHECKS = (
-    Check(
-        "singular", Run, look_for_passages, say_passages, 250, (SECOND_RUN,), "Singular position", blind=SEVERAL_WAYS
-    ),
-    Check("unsearched", Run, look_unsearched, say_unsearched, 912, (SECOND_RUN,), "Not examined", line="unexamined"),
+    Check("singular", Run, look_for_passages, say_passages, 250, (SECOND_RUN,), "Singular position", blind=SEVERAL),
+    Check("unsearched", Run, look_unsearched, say_unsearched, 912, (SECOND_RUN,), line="unexamined"),
     Check("branch", Run, look_for_change, say_change, 252, (STEPS,), "Branch", blind=CHANGED),
 )

@@ -7,17 +7,16 @@ Of contacts in passing spheres are exact. Of other shapes the convex hulls are l
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.judge.after.report import FRAMES, STEPS, Check
 from nivel.judge.after.subject import Equilibria, Motion, Run
 from nivel.judge.after.touching_pairs import Passed
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 from nivel.results.scales import Readable, machine_size
 from nivel.results.trust import Item, Threshold, number
 
-Array = NDArray[np.float64]
 SHOWN = 5  # contacts of which each has a line
 
 

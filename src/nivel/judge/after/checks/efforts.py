@@ -258,16 +258,8 @@ def say_surplus(found: Surplus) -> Item:
 
 
 CHECKS = (
-    Check(
-        "followed",
-        (Positions, Actuated),
-        look_at_drivers,
-        say_drivers,
-        place=25,
-        needs=(FRAMES,),
-        title="Drivers followed",
-    ),
-    Check("replaced", Actuated, look_at_replaced, say_replaced, place=26, needs=(FRAMES,), title="Drivers replaced"),
+    Check("followed", (Positions, Actuated), look_at_drivers, say_drivers, 25, (FRAMES,), "Drivers followed"),
+    Check("replaced", Actuated, look_at_replaced, say_replaced, 26, (FRAMES,), "Drivers replaced"),
     Check("motion", Actuated, look_at_motion, say_motion, 12, (), "Motion"),
     Check("open_joints", Actuated, look_at_joints, say_joints, 20, line="violation"),
     Check("held_states", Actuated, look_at_states, say_states, 38, line="states"),

@@ -147,6 +147,7 @@ def _works(result: Readable, step: float) -> list[tuple[str, float, float]]:
 
 # A loss of energy counts above this share of the largest energy; it does not get less where this share of it is left.
 LOSS, STAYS = 1e-8, 0.7
+DAMPS = "their method damps vibrations"
 IMPLICIT = Need("an implicit method", lambda run: run.prepared.integrator.needs != "evaluations")
 
 
@@ -192,14 +193,5 @@ def say_damping(found: Damped) -> Item:
 
 CHECKS = (
     Check("energy", Motion, look_at_balance, say_balance, 10, (), "Energy", BALANCE),
-    Check(
-        "damped",
-        Run,
-        look_at_damping,
-        say_damping,
-        330,
-        (SECOND_RUN, IMPLICIT),
-        "Damped",
-        blind="their method damps vibrations",
-    ),
+    Check("damped", Run, look_at_damping, say_damping, 330, (SECOND_RUN, IMPLICIT), "Damped", blind=DAMPS),
 )

@@ -12,7 +12,6 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.analysis.curves.functions import Curve, varying
 from nivel.judge.after.checks.modes import ENERGY_LEFT_OUT, NEAR_LEFT, STRAIGHT, Basis, modal_bases
@@ -20,6 +19,7 @@ from nivel.judge.after.flexible_bodies import Bent, ModalBody, modal_bodies
 from nivel.judge.after.report import FRAMES, STEPS, Check
 from nivel.judge.after.subject import Equilibria, Run
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import TIME
 from nivel.results.scales import Readable, blocks
@@ -29,7 +29,6 @@ from nivel.system.flexible import bending_bodies
 if TYPE_CHECKING:
     from nivel.flexible.body.invariants import Invariants
 
-Array = NDArray[np.float64]
 MOST_FRAMES = 500  # that bending is looked at in, at most
 STIFFENING = Threshold(
     1e-2,

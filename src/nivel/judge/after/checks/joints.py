@@ -33,6 +33,11 @@ def look_at_freedom(subject: Run | Equilibria) -> Freedom:
     return Freedom(redundancy.degrees_of_freedom, redundancy.position_freedoms, modes, drivers)
 
 
+def look_at_driven(subject: Positions) -> Freedom:
+    """Drivers prescribe all."""
+    return Freedom(0, drivers=subject.prepared.drivers)
+
+
 def say_freedom(found: Freedom) -> Item | None:
     """How many there are."""
     count = found.velocities
@@ -173,13 +178,7 @@ def say_velocities(found: Violation) -> Item:
 CHECKS = (
     Check("scales", Recorded, lambda subject: subject.scales, lambda _: None, 0),
     Check("degrees_of_freedom", (Run, Equilibria), look_at_freedom, say_freedom, 50, (), "Freedom"),
-    Check(
-        "degrees_of_freedom",
-        Positions,
-        lambda subject: Freedom(0, drivers=subject.prepared.drivers),
-        lambda _: None,
-        50,
-    ),
+    Check("degrees_of_freedom", Positions, look_at_driven, lambda _: None, 50),
     Check("redundancy", (Run, Positions), look_at_redundancy, say_redundancy, 60, (), "Redundancy", apart=True),
     Check("redundancy", Equilibria, look_at_redundancy, say_redundancy, 60, (), "Redundancy"),
     Check("violation", Recorded, look_at_opening, say_opening, 20, (), "Joints closed", OPENING),

@@ -97,7 +97,6 @@ def say_kinks(found: Kinked) -> Item:
     return Item("kinks", "amber", f"Kinks: {said}: {some} (amber if there are any)")
 
 
-Array = NDArray[np.float64]
 TURN = 2.0 * np.pi
 OTHERS = Need("a machine with other elements of beams", lambda subject: subject.others is not None)
 

@@ -8,7 +8,6 @@ from bisect import bisect_left
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.analysis.curves.corners import corners, with_features
 from nivel.analysis.curves.functions import LawCurve, SideOf, Varying, varying
@@ -18,6 +17,7 @@ from nivel.judge.after.checks.accuracy import error_from_finer, extent
 from nivel.judge.after.report import STEPS, Check
 from nivel.judge.after.subject import Run
 from nivel.lazy import dataclass, replace
+from nivel.machine.core.vectors import Array
 from nivel.machine.laws.functions import Sampling
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import TIME
@@ -116,7 +116,6 @@ def _is_missed(each: Unseen, agreed: float | None) -> bool:
     return agreed is not None and each.hidden > BEYOND_AGREED * max(agreed, LEAST_HIDDEN)
 
 
-Array = NDArray[np.float64]
 # Places between two samples that are looked at, and samples at most.
 PLACES, MOST_SAMPLES = 16, 20_000
 
@@ -213,7 +212,7 @@ def passed(side: Varying, path: Path, steps: Steps, came: list[float], direction
     return Passed("", float(when[missed[0]]), float(steps.length[step[missed[0]]]), len(missed))
 
 
-def _unmatched(when: NDArray[np.float64], came: list[float], near: float) -> list[int]:
+def _unmatched(when: Array, came: list[float], near: float) -> list[int]:
     """The places of times [s], ascending, that have no time that `came` within `near`, where each of these is taken once."""
     left, out = sorted(came), []
     for k, time in enumerate(when):
@@ -272,18 +271,7 @@ def say_unexamined(found: Unexamined) -> Item:
 
 
 CHECKS = (
-    Check(
-        "loads",
-        Run,
-        look_at_loads,
-        say_loads,
-        200,
-        (STEPS,),
-        "Loads",
-        LOADS,
-        blind="their steps miss {row}",
-        quiet=True,
-    ),
+    Check("loads", Run, look_at_loads, say_loads, 200, (STEPS,), "Loads", LOADS, "their steps miss {row}", quiet=True),
     Check("sampling", Run, look_between_samples, say_between_samples, 210, (STEPS,), "Sampling", SAMPLING, quiet=True),
     Check("events", (Run,), look_at_events, say_event, 205, (STEPS,), "Events", blind="both pass {row} unseen"),
     Check("unexamined", (Run,), look_for_unexamined, say_unexamined, 910, (STEPS,), "Not examined"),

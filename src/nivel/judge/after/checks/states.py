@@ -20,13 +20,13 @@ from nivel.judge.after.report import FRAMES, Check, Need
 from nivel.judge.after.subject import Run
 from nivel.lazy import dataclass, replace
 from nivel.machine.core.element import Acts, Holds
+from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve
 from nivel.results.motion import peak
 from nivel.results.result import Result
 from nivel.results.trust import Item, number
 
-Array = NDArray[np.float64]
 SHOWN = 5  # elements of which each has a line
 # An overlap or an effort below this share of its largest value is none, and an overlap below this share of the size of the machine.
 ROUNDING, PLACE = 1e-9, 1e-12

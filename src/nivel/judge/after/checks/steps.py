@@ -28,6 +28,7 @@ STEP_RATE = Threshold(
     "of this rate; above 1 to 3 it diverges.",
 )
 EXPLICIT = Need("an explicit method", lambda run: run.prepared.integrator.kind == "explicit")
+RATES_KNOWN, MOVING = (FIXED_STEPS, EXPLICIT), (Run, Positions, Actuated)
 
 
 @dataclass(frozen=True)
@@ -252,30 +253,8 @@ def say_otherwise(found: Otherwise) -> Item:
 
 
 CHECKS = (
-    Check(
-        "steps", Run, look_at_steps, say_steps, 350, (FIXED_STEPS, EXPLICIT), "Steps", STEP_RATE, quiet=True, last=True
-    ),
-    Check(
-        "turn", Run, look_at_turns, say_turn, 230, (FIXED_STEPS,), "Turning", TURN_IN_STEP, blind=TURNED_FAR, quiet=True
-    ),
-    Check(
-        "between_frames",
-        Run,
-        look_between_frames,
-        say_between_frames,
-        914,
-        (FRAMES,),
-        "Peaks between frames",
-        line="unexamined",
-    ),
-    Check(
-        "otherwise",
-        (Run, Positions, Actuated),
-        look_otherwise,
-        say_otherwise,
-        27,
-        (FRAMES,),
-        "Between frames",
-        line="between_frames",
-    ),
+    Check("steps", Run, look_at_steps, say_steps, 350, RATES_KNOWN, "Steps", STEP_RATE, quiet=True, last=True),
+    Check("turn", Run, look_at_turns, say_turn, 230, (FIXED_STEPS,), "Turning", TURN_IN_STEP, TURNED_FAR, quiet=True),
+    Check("between_frames", Run, look_between_frames, say_between_frames, 914, (FRAMES,), line="unexamined"),
+    Check("otherwise", MOVING, look_otherwise, say_otherwise, 27, (FRAMES,), "Between frames", line="between_frames"),
 )

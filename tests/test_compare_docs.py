@@ -10,7 +10,8 @@ from pathlib import Path
 from click import Context
 
 from nivel.cli import main
-from nivel.results.comparison import Row, as_record
+from nivel.lazy import asdict
+from nivel.results.comparison import Row
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "compare.md").read_text(encoding="utf-8")
@@ -33,7 +34,7 @@ def test_every_option_has_its_row():
 
 
 def test_every_column_has_its_row():
-    assert {word for word in first_cells() if not word.startswith("--")} == set(as_record(Row("", "", "", "", "")))
+    assert {word for word in first_cells() if not word.startswith("--")} == set(asdict(Row("", "", "", "", "")))
 
 
 def test_commands_have_options_that_exist():

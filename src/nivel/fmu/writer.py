@@ -135,7 +135,8 @@ def write_unit(
     chosen = tuple(dict.fromkeys(known_platform(each) for each in platforms or ("",)))
     found = follow(parameters, machine, vary) if parameters else Followed(machine)
     machine, variables = found.machine, variables_of(found)
-    token = _token(found, description(machine, variables, "", version))
+    digest = hashlib.sha256(machine_data(found, "") + description(machine, variables, "", version).encode()).digest()
+    token = f"{{{uuid.UUID(bytes=digest[:16], version=4)}}}"
     content = {
         "modelDescription.xml": description(machine, variables, token, version).encode(),
         "resources/machine.bin": machine_data(found, token),
@@ -151,12 +152,6 @@ def write_unit(
 
 FROM_NUMBA = "The binaries contain functions (of arrays and of mathematics) that are part of Numba, under this licence:"
 KINDS = ("output", "input", "parameter")
-
-
-def _token(found: Followed, text: str) -> str:
-    """What a unit is known by: it follows from its content."""
-    digest = hashlib.sha256(machine_data(found, "") + text.encode()).digest()
-    return f"{{{uuid.UUID(bytes=digest[:16], version=4)}}}"
 
 
 def licences() -> Iterator[tuple[str, str]]:

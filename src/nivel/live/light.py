@@ -96,7 +96,13 @@ class Judge:
         if counts.guards and steps:
             yield circuits.say_steps(circuits.Guard(steps, counts.divided, counts.guarded, counts.difference))
         if timing.ticks:
-            yield _real_time_item(timing)
+            long, stretched = timing.own / timing.ticks, timing.stretched / (timing.ticks * timing.tick)
+            text = (
+                f"Real time: {number(100.0 * long)} % of the ticks take longer to compute than {1e3 * timing.tick:g} ms, and the time is "
+                f"stretched by {number(100.0 * stretched)} % ({REAL_TIME}); take longer steps, or a simpler model"
+            )
+            fraction = max(long, stretched)
+            yield Item("real time", REAL_TIME.verdict(fraction), text, fraction, REAL_TIME.green, REAL_TIME.amber)
 
     @np.errstate(over="ignore", invalid="ignore")  # a motion that grows beyond all bounds is red, not a warning
     def _look(self, frames: Array, kinetic_energy: float) -> None:
@@ -135,13 +141,3 @@ def _worse(
         for before, after in zip(old[1:], new[1:], strict=True)
     )
     return balance, opening, rates
-
-
-def _real_time_item(timing: Timing) -> Item:
-    long, stretched = timing.own / timing.ticks, timing.stretched / (timing.ticks * timing.tick)
-    text = (
-        f"Real time: {number(100.0 * long)} % of the ticks take longer to compute than {1e3 * timing.tick:g} ms, and the time is "
-        f"stretched by {number(100.0 * stretched)} % ({REAL_TIME}); take longer steps, or a simpler model"
-    )
-    fraction = max(long, stretched)
-    return Item("real time", REAL_TIME.verdict(fraction), text, fraction, REAL_TIME.green, REAL_TIME.amber)

@@ -180,7 +180,9 @@ def _positions(result: Result) -> Panel | None:
         return None
     position, orientation = result.array("position"), result.array("orientation")
     floor = NEGLIGIBLE * result.trust.size
-    shown = _named_places(result)
+    nodes = beam_nodes(result)
+    named = {name for beam in nodes for name in stations(result, beam)}
+    shown = named | {name for name in result.coordinates["body"] if name.partition(".")[0] not in nodes}
     groups = []
     for k, body in enumerate(bodies(result)):
         name, values = result.coordinates["body"][k], position[:, k]
@@ -192,13 +194,6 @@ def _positions(result: Result) -> Panel | None:
         if _moves(values, floor):
             groups.append(Group(name, "m", tuple(components(values)), floor=floor))
     return Panel("Body positions", tuple(groups[:GROUPS]), note=left_out(len(groups)))
-
-
-def _named_places(result: Result) -> set[str]:
-    """Bodies, and of the nodes of beams those that have names."""
-    nodes = beam_nodes(result)
-    named = {name for beam in nodes for name in stations(result, beam)}
-    return named | {name for name in result.coordinates["body"] if name.partition(".")[0] not in nodes}
 
 
 def _moves(values: Array, floor: float) -> bool:

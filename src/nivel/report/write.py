@@ -114,6 +114,13 @@ def report_html(result: Result) -> str:
     balance_of = nivel.results.frames.circuit_balance.component_balances if record.get("hydraulics") else None
     balances = balance_of(result, record) if balance_of else []
     motion, motion_left_out = _motion(result)
+    names = {
+        "page_script": "page.js",
+        "spectra_script": "spectra.js",
+        "uplot_style": "uplot/uPlot.min.css",
+        "uplot_script": "uplot/uPlot.iife.min.js",
+        "uplot_licence": "uplot/LICENSE",
+    }
     return page(
         "page.html.j2",
         (),
@@ -149,7 +156,7 @@ def report_html(result: Result) -> str:
         settings=settings_table(result),
         timing=timing_table(result),
         source=str(result.attributes.get("machine_source", "")),
-        **_bundled(),
+        **{key: text_of(name) for key, name in names.items()},
     )
 
 
@@ -246,15 +253,3 @@ def _group(group: Group, thin: Thinning) -> dict[str, Any]:
 def _packed(values: NDArray[np.float64], kind: str) -> str:
     with np.errstate(over="ignore"):  # beyond 32 bits: drawn as a gap
         return base64.b64encode(values.astype(kind).tobytes()).decode()
-
-
-def _bundled() -> dict[str, str]:
-    """Styles and scripts of the report beside those of all pages."""
-    names = {
-        "page_script": "page.js",
-        "spectra_script": "spectra.js",
-        "uplot_style": "uplot/uPlot.min.css",
-        "uplot_script": "uplot/uPlot.iife.min.js",
-        "uplot_licence": "uplot/LICENSE",
-    }
-    return {key: text_of(name) for key, name in names.items()}

@@ -12,7 +12,7 @@ from nivel.elements.beams.beam import Beam
 from nivel.elements.beams.exact import gauss
 from nivel.elements.beams.gradients import gradients, lengths_of, line_at, unstressed_vectors
 from nivel.errors import ModelError
-from nivel.lazy import dataclass, nivel, scipy, xarray
+from nivel.lazy import dataclass, nivel, replace, scipy, xarray
 from nivel.machine.core.record import unknown_word
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
@@ -32,19 +32,13 @@ def felt(beam: Beam, place: Array, theta: Array, modal: Array) -> Felt:
     if beam.model == "segments":
         return _felt_by_springs(beam, place, theta)
     if beam.has_gradients:
-        turned = scipy.spatial.transform.Rotation.from_quat(theta[:, :, [1, 2, 3, 0]].reshape(-1, 4)).as_matrix()
-        return felt_by_gradients(beam, place, turned.reshape(*theta.shape[:2], 3, 3), modal)
+        return felt_by_gradients(beam, place, _axes(theta), modal)
     elements = nivel.elements.beams.exact.elements_of(beam)
     count, points = elements.N.shape[:2]
     times, rows = len(place), max(AT_ONCE // count, 1)
     parts = [np.zeros((0, count * points, 6))]
     for start in range(0, times, rows):
-        x, turned = place[start : start + rows], theta[start : start + rows]
-        axes = (
-            scipy.spatial.transform.Rotation.from_quat(turned[:, :, [1, 2, 3, 0]].reshape(-1, 4))
-            .as_matrix()
-            .reshape(*turned.shape[:2], 3, 3)
-        )
+        x, axes = place[start : start + rows], _axes(theta[start : start + rows])
         many = len(x)
         now = nivel.elements.beams.exact.strains(
             x[:, elements.nodes].reshape(many * count, -1, 3),
@@ -57,6 +51,12 @@ def felt(beam: Beam, place: Array, theta: Array, modal: Array) -> Felt:
     strain = np.concatenate(parts)
     share = np.einsum("nga,na->ng", elements.N, beam.shares[elements.nodes]).ravel()
     return _felt_elastically(beam, share, elements.weight.ravel(), strain)
+
+
+def _axes(theta: Array) -> Array:
+    """(t, N, 3, 3) of Euler parameters (t, N, 4)."""
+    turned = scipy.spatial.transform.Rotation.from_quat(theta.reshape(-1, 4), scalar_first=True)
+    return turned.as_matrix().reshape(*theta.shape[:2], 3, 3)
 
 
 def _felt_elastically(beam: Beam, share: Array, weight: Array, strain: Array) -> Felt:
@@ -76,13 +76,8 @@ def modes_of_nodes(result: Result, beam: Beam) -> Array:
 
 def _felt_by_springs(beam: Beam, place: Array, theta: Array) -> Felt:
     """The same where segments meet: the deflection of the spring over the length of its piece of beam."""
-    axes = (
-        scipy.spatial.transform.Rotation.from_quat(theta.reshape(-1, 4), scalar_first=True)
-        .as_matrix()
-        .reshape(*theta.shape[:2], 3, 3)
-    )
     weight = beam.line.length * np.diff(beam.shares)
-    strain = nivel.elements.beams.segments.deflections(beam, place, axes) / weight[:, None]
+    strain = nivel.elements.beams.segments.deflections(beam, place, _axes(theta)) / weight[:, None]
     return _felt_elastically(beam, nivel.elements.beams.segments.boundaries(beam), weight, strain)
 
 
@@ -105,26 +100,17 @@ def beam_sections(result: Result, name: str) -> xarray.Dataset:
     beam = found[name]
     data = result.dataset.sel(body=list(beam.node_names))
     of = felt(beam, data["position"].values, data["orientation"].values, modes_of_nodes(result, beam))
-    dims = ("time", "point", "component")
-    out = xarray.Dataset(
-        {
-            "strain": (dims, of.strain[:, :, :3], {"units": "1", "long_name": "stretch and shears"}),
-            "curvature": (dims, of.strain[:, :, 3:], {"units": "1/m", "long_name": "twist and curvatures"}),
-            "force": (
-                dims,
-                of.stress[:, :, :3],
-                {"units": "N", "long_name": "force in the section, axes of the section"},
-            ),
-            "moment": (
-                dims,
-                of.stress[:, :, 3:],
-                {"units": "N m", "long_name": "moment in the section, axes of the section"},
-            ),
-            "energy": (("time",), of.energy, {"units": "J", "long_name": "energy stored in the beam"}),
-        },
-        {"time": data["time"].values, "point": np.arange(len(of.share)), "component": list(COMPONENTS)},
+    rows = (
+        ("strain", of.strain[:, :, :3], "1", "stretch and shears"),
+        ("curvature", of.strain[:, :, 3:], "1/m", "twist and curvatures"),
+        ("force", of.stress[:, :, :3], "N", "force in the section, axes of the section"),
+        ("moment", of.stress[:, :, 3:], "N m", "moment in the section, axes of the section"),
+        ("energy", of.energy, "J", "energy stored in the beam"),
     )
-    return out.assign_coords(share=("point", of.share))
+    dims = ("time", "point", "component")
+    values = {name: (dims[: each.ndim], each, {"units": unit, "long_name": said}) for name, each, unit, said in rows}
+    coords = {"time": data["time"].values, "point": np.arange(len(of.share)), "component": list(COMPONENTS)}
+    return xarray.Dataset(values, coords).assign_coords(share=("point", of.share))
 
 
 def felt_by_gradients(beam: Beam, place: Array, axes: Array, modal: Array) -> Felt:
@@ -145,8 +131,8 @@ def _beam(beam: Beam, v: Array) -> Felt:
     now, unstressed = beam_strains(beam, v), beam_strains(beam, unstressed_vectors(beam))
     strain = (now.value - unstressed.value).reshape(len(v), -1, 6)
     C = beam.properties.stiffness
-    stress, weight = strain @ C, now.weight.ravel()
-    energy = 0.5 * np.einsum("tpi,tpi,p->t", strain, stress, weight)
+    of = _felt_elastically(beam, _share(beam, now.share[0]), now.weight.ravel(), strain)
+    energy = of.energy
     Y, Z = v[:, :, 2], v[:, :, 3]
     squares = 0.5 * np.sum(Y * Y, axis=-1) - 0.5, 0.5 * np.sum(Z * Z, axis=-1) - 0.5, np.sum(Y * Z, axis=-1)
     for length in np.unique(lengths_of(beam)).tolist():
@@ -154,7 +140,7 @@ def _beam(beam: Beam, v: Array) -> Felt:
         of_node = np.append(of_element, 0.0) + np.append(0.0, of_element)
         for share, value in zip(section_stiffness(C, length), squares, strict=True):
             energy = energy + 0.5 * share * (value**2 @ of_node)
-    return Felt(_share(beam, now.share[0]), weight, strain, stress, energy)
+    return replace(of, energy=energy)
 
 
 def _cable(beam: Beam, v: Array, axes: Array) -> Felt:

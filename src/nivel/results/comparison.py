@@ -7,11 +7,11 @@ import io
 import json
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 
 from nivel.errors import ModelError
 from nivel.files.target import write_text
-from nivel.lazy import dataclass, field, fields, provided
+from nivel.lazy import asdict, dataclass, field, fields, provided, replace
 from nivel.results.comparison_table import as_html, as_text
 from nivel.results.trust import Trust, storable
 from nivel.words.arguments import checked_arguments
@@ -212,11 +212,7 @@ class Comparison:
     @checked_arguments
     def to_json(self, path: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
         """Everything as JSON, null for what is not a number; written to `path` where one is given. force : replace an existing file."""
-        data = as_record(self)
-        data["rows"] = [as_record(row) for row in self.rows]
-        data["references"] = [as_record(each) for each in self.references]
-        data["spread"] = self.spread and as_record(self.spread)
-        data["trust"] = json.loads(self.trust.to_json())
+        data = asdict(replace(self, trust=None)) | {"trust": json.loads(self.trust.to_json())}
         text = json.dumps(storable(data, lambda _: None), indent=2, ensure_ascii=False) + "\n"
         return write_text(text, path, "comparison", force=force)
 
@@ -262,8 +258,3 @@ def method_label(method: Method, varying: Iterable[str]) -> str:
     return " · ".join(
         word for name, word in zip(names, words, strict=True) if name != "rotations" or method.formulation == "lagrange"
     )
-
-
-def as_record(item: Any) -> dict[str, Any]:
-    """The fields of a flat dataclass by name."""
-    return {each.name: getattr(item, each.name) for each in fields(item)}

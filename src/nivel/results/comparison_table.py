@@ -39,11 +39,11 @@ def columns(comparison: Comparison) -> list[Column]:
     out.append(Column("per step", lambda row: seconds(row.seconds_per_step)))
     counts = ("steps", "rejected", "evaluations", "iterations")
     out += [Column(name, _count(name)) for name in counts if any(getattr(row, name) for row in rows)]
-    out.append(
-        Column("constraints", lambda row: "failed" if row.outcome == "failed" else number(row.constraint_error, 2))
-    )
-    out.append(Column("rates [1/s]", lambda row: number(row.constraint_rate_error, 2)))
-    out.append(Column("energy", lambda row: number(row.energy_error_relative, 2)))
+    out += [
+        Column("constraints", lambda row: "failed" if row.outcome == "failed" else number(row.constraint_error, 2)),
+        Column("rates [1/s]", lambda row: number(row.constraint_rate_error, 2)),
+        Column("energy", lambda row: number(row.energy_error_relative, 2)),
+    ]
     if comparison.references:
         out.append(Column("motion", lambda row: motion(comparison, row)))
     if any(row.order is not None for row in rows):
@@ -83,21 +83,13 @@ def stops(comparison: Comparison) -> list[str]:
     times: dict[str, list[float]] = {}
     for row in comparison.stopped:
         times.setdefault(row.stopped_by, []).append(row.end_time or 0.0)
-    ran = sum(row.outcome != "refused" for row in comparison.rows)
-    return [
-        f"{_how_many(len(its), ran)} ended by the event {event}, at {_between(its)}" for event, its in times.items()
-    ]
-
-
-def _how_many(count: int, ran: int) -> str:
-    if ran == 1:
-        return "the run was"
-    return f"{count} of {ran} runs {'was' if count == 1 else 'were'}"
-
-
-def _between(times: list[float]) -> str:
-    first, last = (f"{time:.6g}" for time in (min(times), max(times)))
-    return f"{first} s" if first == last else f"{first} to {last} s"
+    ran, out = sum(row.outcome != "refused" for row in comparison.rows), []
+    for event, its in times.items():
+        many = "the run was" if ran == 1 else f"{len(its)} of {ran} runs {'was' if len(its) == 1 else 'were'}"
+        first, last = (f"{time:.6g}" for time in (min(its), max(its)))
+        between = f"{first} s" if first == last else f"{first} to {last} s"
+        out.append(f"{many} ended by the event {event}, at {between}")
+    return out
 
 
 def spread_line(comparison: Comparison) -> str:
@@ -132,9 +124,8 @@ def as_text(comparison: Comparison) -> str:
         ).rstrip()
         for row in cells
     ]
-    return "\n".join(
-        [f"<Comparison of {comparison.machine}: {_plural(len(comparison.rows), 'cell')}>", *table, *lines(comparison)]
-    )
+    head = f"<Comparison of {comparison.machine}: {_plural(len(comparison.rows), 'cell')}>"
+    return "\n".join([head, *table, *lines(comparison)])
 
 
 def as_html(comparison: Comparison) -> str:
@@ -156,11 +147,8 @@ def motion(comparison: Comparison, row: Row) -> str:
     reference = comparison.reference_of(row)
     if row.motion_error is None or reference is None:
         return ""
-    return (
-        number(row.motion_error, 2)
-        if comparison.is_resolved(row)
-        else f"≲ {number(max(row.motion_error, reference.error), 2)}"
-    )
+    below = f"≲ {number(max(row.motion_error, reference.error), 2)}"
+    return number(row.motion_error, 2) if comparison.is_resolved(row) else below
 
 
 def order(row: Row) -> str:

@@ -72,10 +72,8 @@ def plot(result: Result, names: tuple[str, ...], band: bool = False) -> Figure:
             values = result.array(name)
             (line,) = axis.plot(result.time, values, label=name, linewidth=1.2)
             if band:
-                error = result.estimated_error(name)
-                axis.fill_between(
-                    result.time, values - error, values + error, color=line.get_color(), alpha=0.25, linewidth=0
-                )
+                error, style = result.estimated_error(name), {"color": line.get_color(), "alpha": 0.25, "linewidth": 0}
+                axis.fill_between(result.time, values - error, values + error, **style)
         axis.set_ylabel(f"[{unit}]" if len(group) > 1 else f"{group[0]} [{unit}]")
         axis.grid(alpha=0.3)
         if 1 < len(group) <= QUIET_LINES:

@@ -67,12 +67,9 @@ def machine_size(result: Readable) -> tuple[float, str]:
 def _extent_at_start(result: Readable) -> float:
     """The same in the first frame."""
     scene, names = str(result.attributes.get("scene", "{}")), tuple(result.coordinates.get("body", ()))
-    if "position" not in result.variables:
-        return _extent_of_poses(scene, names, b"", b"")
-    first = slice(0, 1)
-    return _extent_of_poses(
-        scene, names, result.array("position", first).tobytes(), result.array("orientation", first).tobytes()
-    )
+    known = ("position", "orientation") if "position" in result.variables else ()
+    poses = [result.array(name, slice(0, 1)).tobytes() for name in known] or [b"", b""]
+    return _extent_of_poses(scene, names, *poses)
 
 
 @lru_cache(maxsize=4)  # asked for several times in a report
@@ -255,9 +252,8 @@ def _damping(result: Readable, size: float, frames: slice) -> Array:
         name, damping = f"force.{force['name']}", force.get("damping", 0.0)
         if f"{name}.rate" in result.variables and isinstance(damping, float | int) and damping > 0.0:
             effort = np.abs(damping * result.array(f"{name}.rate", frames))
-            total += _arm(result.variables[f"{name}.magnitude"].units, size) * np.where(
-                np.isfinite(effort), effort, 0.0
-            )
+            arm = _arm(result.variables[f"{name}.magnitude"].units, size)
+            total += arm * np.where(np.isfinite(effort), effort, 0.0)
     return total
 
 
@@ -296,9 +292,8 @@ def bodies(result: Readable) -> list[dict[str, Any]]:
 
 def _body_points(body: dict[str, Any]) -> Array:
     """(n, 3) [m] origin, centre of mass and joint points in the body frame."""
-    return np.array(
-        [[0.0, 0.0, 0.0], body.get("centre_of_mass", [0.0, 0.0, 0.0]), *body.get("points", [])], dtype=float
-    )
+    origin = [0.0, 0.0, 0.0]
+    return np.array([origin, body.get("centre_of_mass", origin), *body.get("points", [])], dtype=float)
 
 
 def _reach(body: dict[str, Any]) -> float:

@@ -215,32 +215,24 @@ def _write_header(
     """Attributes, coordinates and variables of `count` empty frames; `layout(shape, count)` gives their storage."""
     file.attrs.update(attributes)
     file.attrs["Conventions"] = CONVENTIONS
-    scales = {
-        "time": file.create_dataset("time", (count,), "f8", maxshape=(None,), fillvalue=np.nan, **layout((), count))
-    }
-    scales["time"].attrs.update({"units": "s", "long_name": "time"})
+    time = file.create_dataset("time", (count,), "f8", maxshape=(None,), fillvalue=np.nan, **layout((), count))
+    time.attrs.update({"units": "s", "long_name": "time"})
+    scales = {"time": time}
     for dim, names in coordinates.items():
         scales[dim] = file.create_dataset(dim, data=np.array(names, dtype=object), dtype=h5py.string_dtype())
     for dim, scale in scales.items():
         scale.make_scale(dim)
     for variable, shape in variables:
-        dataset = file.create_dataset(
-            name_in_file(variable.name),
-            (count, *shape),
-            "f8",
-            maxshape=(None, *shape),
-            fillvalue=np.nan,
-            **layout(shape, count),
-        )
+        name, stored = name_in_file(variable.name), {"maxshape": (None, *shape), **layout(shape, count)}
+        dataset = file.create_dataset(name, (count, *shape), "f8", fillvalue=np.nan, **stored)
         dataset.attrs.update({"units": variable.units, "long_name": variable.long_name})
         for axis, dim in enumerate(variable.dims):
             dataset.dims[axis].attach_scale(scales[dim])
 
 
-def _running_chunks(shape: tuple[int, ...], count: int) -> dict[str, Any]:
+def _running_chunks(shape: tuple[int, ...], _count: int) -> dict[str, Any]:
     """Chunks of whole frames."""
-    width = 8 * prod(shape)
-    return {"chunks": (int(np.clip(RUNNING_CHUNK // width, 1, 1024)), *shape)}
+    return {"chunks": (int(np.clip(RUNNING_CHUNK // (8 * prod(shape)), 1, 1024)), *shape)}
 
 
 def _final_chunks(shape: tuple[int, ...], count: int) -> dict[str, Any]:
@@ -251,8 +243,7 @@ def _final_chunks(shape: tuple[int, ...], count: int) -> dict[str, Any]:
     for length in reversed(shape):
         side = min(length, room)
         sides.insert(0, side)
-        room = room // side if side == length else 1
-        room = max(room, 1)
+        room = max(room // side, 1) if side == length else 1
     return {"chunks": (rows, *sides), "shuffle": True, "compression": "gzip", "compression_opts": COMPRESSION_LEVEL}
 
 

@@ -14,25 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.flexible.body import recovery
 from nivel.flexible.body.body import ReducedBody
 from nivel.flexible.body.body_file import fingerprint, read_body
-from nivel.flexible.body.recovery import (
-    Cycle,
-    Envelope,
-    HotSpot,
-    displacement,
-    envelope,
-    hot_spots,
-    rainflow,
-    signed_principal,
-    stations_at,
-    strain,
-    stress,
-    stress_modes,
-    von_mises,
-)
-from nivel.lazy import asdict, dataclass, nivel, scipy
+from nivel.flexible.body.recovery import Cycle, Envelope, HotSpot, stations_at, stress_modes
+from nivel.lazy import asdict, dataclass, nivel
 from nivel.machine.core.vectors import Array
+from nivel.results.motion import rotation_matrices
 from nivel.results.trust import Trust
 from nivel.words.arguments import checked_arguments
 
@@ -90,9 +78,8 @@ class RecoveredBody:
         number = int(node)
         if number not in self.body.node_ids:
             ids = self.body.node_ids
-            raise ModelError(
-                f"{self.name} has no node {number}; its {len(ids)} nodes have numbers from {ids.min()} to {ids.max()}"
-            )
+            known = f"its {len(ids)} nodes have numbers from {ids.min()} to {ids.max()}"
+            raise ModelError(f"{self.name} has no node {number}; {known}")
         return number
 
     @checked_arguments
@@ -115,29 +102,29 @@ class RecoveredBody:
     def displacement(self, node: int | str | None = None) -> Array:
         """(t, 3) [m] of a node, or (t, nodes, 3) of all, in the body frame."""
         if node is None:
-            return displacement(self.body, self.q)
+            return recovery.displacement(self.body, self.q)
         place = int(np.flatnonzero(self.body.node_ids == self.node(node))[0])
         return self.q @ self.body.modes[place, :3].T
 
     @checked_arguments
     def stress(self, node: int | str | None = None) -> Array:
         """(t, stations, 6) [Pa] xx, yy, zz, xy, yz, zx at the stations of a node, default all."""
-        return stress(self.body, self.q, self._stations(node))
+        return recovery.stress(self.body, self.q, self._stations(node))
 
     @checked_arguments
     def strain(self, node: int | str | None = None) -> Array:
         """(t, stations, 6), shear as γ. Raises ModelError where the body was reduced without strains."""
-        return strain(self.body, self.q, self._stations(node))
+        return recovery.strain(self.body, self.q, self._stations(node))
 
     @checked_arguments
     def von_mises(self, node: int | str | None = None) -> Array:
         """(t, stations) [Pa]"""
-        return von_mises(self.stress(node))
+        return recovery.von_mises(self.stress(node))
 
     @checked_arguments
     def signed_principal(self, node: int | str | None = None) -> Array:
         """(t, stations) [Pa] the principal stress of largest magnitude, with its sign."""
-        return signed_principal(self.stress(node))
+        return recovery.signed_principal(self.stress(node))
 
     def _stations(self, node: int | str | None) -> Whole | None:
         return None if node is None else stations_at(self.body, self.node(node))
@@ -147,7 +134,7 @@ class RecoveredBody:
     @cached_property
     def envelope(self) -> Envelope:
         """The largest von Mises stress of each station over the run, and the frame at which it was."""
-        return envelope(self.body, self.q)
+        return recovery.envelope(self.body, self.q)
 
     @property
     def worst_time(self) -> float:
@@ -160,7 +147,7 @@ class RecoveredBody:
 
         apart : places nearer to a greater one than this share of the size of the body are left out.
         """
-        return hot_spots(self.body, self.q, count=count, apart=apart)
+        return recovery.hot_spots(self.body, self.q, count=count, apart=apart)
 
     @checked_arguments
     def rainflow(self, node: int | str, station: int | None = None) -> list[Cycle]:
@@ -168,7 +155,7 @@ class RecoveredBody:
 
         station : which fibre, a place in `labels(node)`; default that of the largest range.
         """
-        return rainflow(self.signed_principal(node)[:, self.widest(node) if station is None else station])
+        return recovery.rainflow(self.signed_principal(node)[:, self.widest(node) if station is None else station])
 
     @checked_arguments
     def widest(self, node: int | str) -> int:
@@ -200,7 +187,7 @@ class RecoveredBody:
         frames = np.arange(len(self.time)) if times is None else np.unique([self.frame(time) for time in times])
         place = self._result.selection(f"{self.name}.position").where[1]
         R = self._result.array("position")[frames, place]
-        A = _rotation(self._result.array("orientation")[frames, place])
+        A = rotation_matrices(self._result.array("orientation")[frames, place])
 
         def followed() -> Iterator[float]:
             for k, frame in enumerate(frames):
@@ -208,11 +195,6 @@ class RecoveredBody:
                 yield float(self.time[frame])
 
         return nivel.flexible.body.vtk.write_motion(self.body, Path(path), followed(), self.q[frames], R, A)
-
-
-def _rotation(theta: Array) -> Array:
-    """(t, 3, 3) of Euler parameters (t, 4)."""
-    return scipy.spatial.transform.Rotation.from_quat(theta, scalar_first=True).as_matrix()
 
 
 ATTRIBUTE = "flexible_bodies"

@@ -22,9 +22,7 @@ STRESS: Final = ("xx", "yy", "zz", "xy", "yz", "zx")
 def write_rows(path: str | os.PathLike[str], header: Sequence[str], rows: Iterable[Sequence[object]]) -> Path:
     """Write a table; an existing file is replaced. Raises ModelError where it cannot be written."""
     with written(path, "table") as draft, draft.open("w", encoding="utf-8", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(header)
-        table.writerows(rows)
+        csv.writer(file, lineterminator="\n").writerows([header, *rows])
     return Path(path)
 
 
@@ -62,38 +60,27 @@ def write_states(path: str | os.PathLike[str], body: RecoveredBody, times: Seque
 
 
 def _states(body: RecoveredBody, times: Sequence[float]) -> Iterator[list[object]]:
-    modes, node_of = stress_modes(body.body), stress_modes(body.body).station_node
     for frame in [body.frame(time) for time in times]:
         moved, sigma = displacement(body.body, body.q[frame])[0], stress(body.body, body.q[frame])[0]
         size, signed = von_mises(sigma), signed_principal(sigma)
-        for s, node in enumerate(node_of):
-            label = modes.labels[s] if modes.labels else ""
-            yield [
-                float(body.time[frame]),
-                int(body.body.node_ids[node]),
-                label,
-                *body.body.position[node].tolist(),
-                *moved[node].tolist(),
-                float(size[s]),
-                float(signed[s]),
-                *sigma[s].tolist(),
-            ]
+        for s, (node, place) in enumerate(_stations(body)):
+            numbers = [float(size[s]), float(signed[s]), *sigma[s].tolist()]
+            yield [float(body.time[frame]), *place, *moved[node].tolist(), *numbers]
+
+
+def _stations(body: RecoveredBody) -> Iterator[tuple[int, list[object]]]:
+    """The place of its node among all, and its number, name and position (3) [m], of each station."""
+    modes, own = stress_modes(body.body), body.body
+    for s, node in enumerate(modes.station_node):
+        yield node, [int(own.node_ids[node]), modes.labels[s] if modes.labels else "", *own.position[node].tolist()]
 
 
 def write_envelope(path: str | os.PathLike[str], body: RecoveredBody) -> Path:
     """A row per station: its node, its place, its largest von Mises stress over the run and when."""
-    modes, worst = stress_modes(body.body), body.envelope
+    worst = body.envelope
     header = ["node", "station", *(f"{axis} [m]" for axis in AXES), "largest von Mises [Pa]", "time [s]"]
-    rows = (
-        [
-            int(body.body.node_ids[node]),
-            modes.labels[s] if modes.labels else "",
-            *body.body.position[node].tolist(),
-            float(worst.value[s]),
-            float(body.time[worst.index[s]]),
-        ]
-        for s, node in enumerate(modes.station_node)
-    )
+    most = zip(worst.value.tolist(), body.time[worst.index].tolist(), strict=True)
+    rows = ([*place, *numbers] for (_, place), numbers in zip(_stations(body), most, strict=True))
     return write_rows(path, header, rows)
 
 

@@ -30,7 +30,7 @@ from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.linearise import EQUILIBRIUM, ROTATION, LineariseSettings
 from nivel.results.analyses.linear_model import LinearModel
-from nivel.results.analyses.linear_motion import Posed
+from nivel.results.analyses.mode_motion import Posed
 from nivel.results.analyses.sampled_model import SampledModel
 from nivel.system.system import Array
 from nivel.words.wording import first_of

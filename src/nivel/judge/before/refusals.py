@@ -202,8 +202,12 @@ def friction_at_jumps(machine: MachineRecord) -> Iterator[Fault]:
     """Friction loaded by reactions where the speed of a driver jumps: the impulse through the joints would ask for one of friction."""
     end = machine.simulation.duration
     tables = [(owner.split(".")[1], motion) for owner, motion in _motions(machine) if isinstance(motion, Table)]
-    corners = {name: table.interpolation == "linear" and corners_of(table, end) for name, table in tables}
-    jumping = [name for name, table in tables if table.ends_before(end) or min(corners[name] or (end,)) < end]
+    straight = [
+        name
+        for name, table in tables
+        if table.interpolation == "linear" and min(corners_of(table, end), default=end) < end
+    ]
+    jumping = [name for name, table in tables if table.ends_before(end) or name in straight]
     loaded = [
         force.name
         for force in machine.forces

@@ -76,7 +76,9 @@ def circuit_of(record: Mapping[str, Any]) -> Circuit:
         if kind == "reservoir" or (kind == "tank" and not _is_supply(data)):
             drains.add(name)
             gases |= {name} if gas else set()
-        elif _is_line(kind):
+        elif (
+            kind in COMPONENTS and COMPONENTS[kind].symbol is None and COMPONENTS[kind].add is None
+        ):  # where lines meet
             values[name] = f"hydraulics.{name}.pressure"
         else:
             symbol = _symbol(data, kind)
@@ -96,11 +98,6 @@ def variable_of(node: str) -> str:
 def _is_supply(tank: Mapping[str, Any]) -> bool:
     pressure = tank.get("pressure")
     return not isinstance(pressure, float | int) or pressure > HIGHEST
-
-
-def _is_line(kind: str) -> bool:
-    """Whether a component is a node alone, where lines meet."""
-    return kind in COMPONENTS and COMPONENTS[kind].symbol is None and COMPONENTS[kind].add is None
 
 
 def _ports(data: Mapping[str, Any]) -> dict[str, str]:

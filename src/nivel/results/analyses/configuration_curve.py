@@ -71,17 +71,12 @@ class ConfigurationCurve(Tabulated):
 
     def __str__(self) -> str:
         unit = self.units[self.names.index(self.coordinate)]
-        end = (
-            "comes back to where it began"
-            if self.closed
-            else "does not come back within the positions that were looked at"
-        )
-        lines = [f"{self.machine}: {len(self.arc)} positions; the motion {end}"]
+        whole, part = "comes back to where it began", "does not come back within the positions that were looked at"
+        lines = [f"{self.machine}: {len(self.arc)} positions; the motion {whole if self.closed else part}"]
         for each in self.turning:
             turned = f" ({np.degrees(each.value):.6g}°)" if unit == "rad" else ""
-            lines.append(
-                f"  {self.coordinate} turns back at {each.value:.9g} {unit}{turned}, held there by {', '.join(each.joints)}"
-            )
+            held = f"held there by {', '.join(each.joints)}"
+            lines.append(f"  {self.coordinate} turns back at {each.value:.9g} {unit}{turned}, {held}")
         if not self.turning:
             lines.append(f"  {self.coordinate} never turns back")
         if self.crossed:
@@ -138,26 +133,22 @@ class JointPath(Tabulated):
 
     def to_xarray(self) -> xarray.Dataset:
         """Coordinates, errors and measures over time."""
+        measures = ("reached", "manipulability", "smallest_singular_value")
         values = {
             "value": (("time", "coordinate"), self.values),
             "position_error": (("time",), self.error[:, 0], {"units": "m"}),
             "orientation_error": (("time",), self.error[:, 1], {"units": "rad"}),
-            "reached": (("time",), self.reached),
-            "manipulability": (("time",), self.manipulability),
-            "smallest_singular_value": (("time",), self.smallest_singular_value),
+            **{name: (("time",), getattr(self, name)) for name in measures},
         }
-        return xarray.Dataset(
-            values, coords={"time": self.time, "coordinate": list(self.coordinates)}, attrs=self.trust.attributes()
-        )
+        coordinates = {"time": self.time, "coordinate": list(self.coordinates)}
+        return xarray.Dataset(values, coords=coordinates, attrs=self.trust.attributes())
 
     def save_csv(self, path: str | PathLike[str], coordinates: tuple[str, ...] = ()) -> Path:
         """Write `time` and coordinates (default: the independent ones) as a table that `inverse(trajectory=…)` reads."""
         names = coordinates or self.independent
         columns = [self.time, *(self[name] for name in names)]
         with written(path, "table") as draft, draft.open("w", newline="", encoding="utf-8") as file:
-            table = csv.writer(file)
-            table.writerow(["time", *names])
-            table.writerows(np.column_stack(columns).tolist())
+            csv.writer(file).writerows([["time", *names], *np.column_stack(columns).tolist()])
         return Path(path)
 
     def summary(self) -> dict[str, Any]:

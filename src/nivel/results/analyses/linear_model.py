@@ -137,9 +137,8 @@ class LinearModel(Tabulated):
     @property
     def growing(self) -> NDArray[np.bool_]:
         """(n,) whether the real part of each eigenvalue is positive, by more than round-off; not of those that are exactly zero."""
-        return ~self.structural & (
-            self.eigenvalues.real > np.maximum(self.round_off, ROUND_OFF * np.abs(self.eigenvalues))
-        )
+        known = np.maximum(self.round_off, ROUND_OFF * np.abs(self.eigenvalues))
+        return ~self.structural & (self.eigenvalues.real > known)
 
     @property
     def participation(self) -> Array:
@@ -202,9 +201,8 @@ class LinearModel(Tabulated):
         try:
             inner = np.array([np.linalg.solve(2j * np.pi * each * np.eye(n) - self.A, self.B) for each in f])
         except np.linalg.LinAlgError:
-            raise ModelError(
-                "the response is infinite: a frequency is that of an undamped motion; leave it out"
-            ) from None
+            infinite = "the response is infinite: a frequency is that of an undamped motion; leave it out"
+            raise ModelError(infinite) from None
         values = self.C @ inner + self.D if n else np.broadcast_to(self.D, (len(f), *self.D.shape)).astype(complex)
         coordinates = {"frequency": f, "output": list(self.outputs), "input": list(self.inputs)}
         response = xarray.DataArray(values, coords=coordinates, dims=("frequency", "output", "input"), name="response")
@@ -250,40 +248,27 @@ class LinearModel(Tabulated):
             "structural": (("eigenvalue",), self.structural, {}),
             "participation": (("state", "eigenvalue"), self.participation, {}),
         }
-        if self.sampled is not None:
+        rates = (name.removesuffix(".rate") for name in self.states if name.endswith(".rate"))
+        free = list(rates)[: len(self.M)]
+        coordinates = {"state": list(self.states), "state_": list(self.states), "coordinate": free, "coordinate_": free}
+        coordinates |= {"input": list(self.inputs), "output": list(self.outputs)}
+        facts: dict[str, Any] = {"machine": self.name, "about": self.about, "time": self.time}
+        facts["steady"] = int(self.steady)
+        if (sampled := self.sampled) is not None:
             values |= {
-                "transition": (("sampled_state", "sampled_state_"), self.sampled.transition, {}),
-                "pole_real": (("pole",), self.sampled.poles.real, {"units": "1"}),
-                "pole_imag": (("pole",), self.sampled.poles.imag, {"units": "1"}),
+                "transition": (("sampled_state", "sampled_state_"), sampled.transition, {}),
+                "pole_real": (("pole",), sampled.poles.real, {"units": "1"}),
+                "pole_imag": (("pole",), sampled.poles.imag, {"units": "1"}),
             }
+            coordinates |= {"sampled_state": list(sampled.states), "sampled_state_": list(sampled.states)}
+            facts["sampled"] = json.dumps(sampled.summary())
         if self.random is not None:
             values |= {
                 f"random_{name}": (tuple(f"random_{dim}" for dim in each.dims), each.values, each.attrs)
                 for name, each in self.random.data_vars.items()
             }
-        rates = (name.removesuffix(".rate") for name in self.states if name.endswith(".rate"))
-        free = list(rates)[: len(self.M)]
-        coordinates = {
-            "state": list(self.states),
-            "state_": list(self.states),
-            "coordinate": free,
-            "coordinate_": free,
-            "input": list(self.inputs),
-            "output": list(self.outputs),
-        }
-        if self.sampled is not None:
-            coordinates |= {"sampled_state": list(self.sampled.states), "sampled_state_": list(self.sampled.states)}
-        if self.random is not None:
             coordinates |= {f"random_{dim}": self.random[dim].values for dim in self.random.dims}
-        facts: dict[str, Any] = {
-            "machine": self.name,
-            "about": self.about,
-            "time": self.time,
-            "steady": int(self.steady),
-        }
-        facts |= {} if self.sampled is None else {"sampled": json.dumps(self.sampled.summary())}
-        facts |= self.trust.attributes()
-        return xarray.Dataset(values, coords=coordinates, attrs=facts)
+        return xarray.Dataset(values, coords=coordinates, attrs=facts | self.trust.attributes())
 
     def _rows(self, select: list[str]) -> Rows:
         """The modes, one a row."""
@@ -306,7 +291,7 @@ class LinearModel(Tabulated):
 
         Raises ModelError where there is no such mode.
         """
-        return nivel.results.analyses.linear_motion.linear_motion(self, number)
+        return nivel.results.analyses.mode_motion.linear_motion(self, number)
 
     def summary(self) -> dict[str, Any]:
         """Numbers and words for programs."""

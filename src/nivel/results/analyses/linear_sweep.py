@@ -109,11 +109,8 @@ class LinearSweep:
 
     def stability_changes(self) -> list[tuple[float, float]]:
         """Pairs of values between which the machine becomes stable or unstable."""
-        known = [
-            (value, not model.growing.any())
-            for value, model in zip(self.values, self.models, strict=True)
-            if model.steady
-        ]
+        steady = [(value, model) for value, model in zip(self.values, self.models, strict=True) if model.steady]
+        known = [(value, not model.growing.any()) for value, model in steady]
         return [(a, b) for (a, stable), (b, other) in pairwise(known) if stable != other]
 
     @cached_property
@@ -134,9 +131,8 @@ class LinearSweep:
                 gap = frequency - order * np.abs(self.speeds)
                 gap = np.where(np.abs(gap) <= MET * frequency, 0.0, gap)
                 for k, share in _changes_of_sign(gap, frequency > 0.0):
-                    speed, value = (
-                        float(each[k] + share * (each[k + 1] - each[k])) for each in (self.speeds, self.values)
-                    )
+                    steps = ((each[k], each[k + 1] - each[k]) for each in (self.speeds, self.values))
+                    speed, value = (float(begin + share * step) for begin, step in steps)
                     out.append(Crossing(int(mode) + 1, order, value, speed, order * abs(speed) / TURN))
         return out
 

@@ -139,9 +139,8 @@ def transmission_angle(result: Result, first: str, at: str, last: str) -> xarray
     else:
         e = _line(result, at, last)
         angle = np.arctan2(np.linalg.norm(np.cross(d, e), axis=1), np.sum(d * e, axis=1))
-    return xarray.DataArray(
-        angle, coords={"time": result.time}, dims="time", name="transmission_angle", attrs={"units": "rad"}
-    )
+    coords, units = {"time": result.time}, {"units": "rad"}
+    return xarray.DataArray(angle, coords=coords, dims="time", name="transmission_angle", attrs=units)
 
 
 def _line(result: Result, at: str, to: str) -> Array:
@@ -213,9 +212,8 @@ class Range:
 
     def summary(self) -> dict[str, Any]:
         """For programs."""
-        return {
-            name: getattr(self, name) for name in self.__dataclass_fields__ if name != "trust"
-        } | self.trust.summary()
+        own = {name: getattr(self, name) for name in self.__dataclass_fields__ if name != "trust"}
+        return own | self.trust.summary()
 
     def __str__(self) -> str:
         if self.full_turn:
@@ -241,14 +239,11 @@ class Studies:
         out = []
         for what, angle in self.angles:
             values = np.degrees(angle.to_numpy())
-            worst = float(np.max(np.abs(values - 90.0)))
-            out.append(
-                f"{what.name}: from {values.min():.4f}° to {values.max():.4f}°, at worst {worst:.4f}° from the right angle"
-            )
+            worst = f"at worst {np.max(np.abs(values - 90.0)):.4f}° from the right angle"
+            out.append(f"{what.name}: from {values.min():.4f}° to {values.max():.4f}°, {worst}")
         for point, curve in self.curves:
-            steps = np.diff(curve["position"].to_numpy(), axis=0)
+            steps, cusps = np.diff(curve["position"].to_numpy(), axis=0), int(curve["cusp"].sum())
             length = float(np.linalg.norm(steps, axis=1).sum())
-            cusps = int(curve["cusp"].sum())
             more = f", {cusps} cusp{'s' * (cusps > 1)}" if cusps else ""
             out.append(f"curve of {point.name}: {length:.6g} m long{more}")
         return out

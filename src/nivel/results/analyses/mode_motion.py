@@ -1,4 +1,4 @@
-"""A vibration about an equilibrium as an animated motion."""
+"""Modes as animated motions: a vibration about an equilibrium, and a mode of a linear model."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ import numpy as np
 
 from nivel.errors import ModelError
 from nivel.integrate.loop.sink import Header
+from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
 from nivel.results.frames.contents import MemoryContents
-from nivel.system.layout import FrameLayout, Variable
+from nivel.results.result import Result
+from nivel.system.layout import Entry, laid_out
 
 if TYPE_CHECKING:
-    from nivel.results.result import Result
+    from nivel.results.analyses.linear_model import LinearModel
 
 FRAMES, CYCLES = 121, 3  # of the motion
 PERIOD = 1.0  # s, whatever the frequency
@@ -32,33 +34,34 @@ def mode_motion(result: Result, number: int, frame: int = -1) -> Result:
     time = np.linspace(0.0, CYCLES * PERIOD, FRAMES)
     wave = np.sin(2.0 * np.pi * time / PERIOD)
     blocks = [
-        time[:, None],
         (position + wave[:, None, None] * shift).reshape(FRAMES, -1),
         np.stack([turned(orientation, share * turn) for share in wave]).reshape(FRAMES, -1),
     ]
-    entries: list[tuple[str, tuple[str, ...], str]] = [
-        ("position", ("time", "body", "xyz"), "m"),
-        ("orientation", ("time", "body", "euler_parameter"), "1"),
-    ]
+    names = ["position", "orientation"]
     if bent is not None:
         blocks.append(bent + wave[:, None] * bending)
-        entries.append(("modal_coordinate", ("time", "mode"), "kg^0.5 m"))
-    variables, start = [], 1
-    for (name, dims, units), block in zip(entries, blocks[1:], strict=True):
-        known = result.variables[name]
-        variables.append(Variable(name, dims, units, known.long_name, slice(start, start + block.shape[1])))
-        start += block.shape[1]
-    wanted = {dim for _, dims, _ in entries for dim in dims[1:]}
-    coordinates = {dim: names for dim, names in result.coordinates.items() if dim in wanted}
-    layout = FrameLayout(start, tuple(variables), coordinates)
-    attributes = {
-        key: result.attributes[key] for key in ("machine_record", "scene", "nivel_version") if key in result.attributes
-    }
+        names.append("modal_coordinate")
+    known = [result.variables[name] for name in names]
+    entries = [(each.name, each.dims, each.units, each.long_name) for each in known]
+    kept = ("machine_record", "scene", "nivel_version")
+    attributes = {key: result.attributes[key] for key in kept if key in result.attributes}
+    settings = {"settings": json.dumps({"vibration": number}), "outcome": "done"}
     name = f"{result.name}, {_name(result, number, frame)}"
-    header = Header(
-        layout, {**attributes, "machine": name, "settings": json.dumps({"vibration": number}), "outcome": "done"}
-    )
-    return type(result)(MemoryContents(header, np.hstack(blocks), header.attributes))
+    return _motion(entries, dict(result.coordinates), {**attributes, "machine": name, **settings}, time, blocks)
+
+
+def _motion(
+    entries: list[Entry],
+    names: dict[str, tuple[str, ...]],
+    attributes: dict[str, str | float | int],
+    time: Array,
+    blocks: list[Array],
+) -> Result:
+    """A result with these variables, of `names` along their dimensions, whose numbers are blocks (FRAMES, ·)."""
+    wanted = {dim for _, dims, *_ in entries for dim in dims[1:]}
+    layout = laid_out(entries, {dim: each for dim, each in names.items() if dim in wanted})
+    header = Header(layout, attributes)
+    return Result(MemoryContents(header, np.hstack([time[:, None], *blocks]), header.attributes))
 
 
 def _equilibrium(result: Result, frame: int) -> tuple[Array, Array, Array | None]:
@@ -108,3 +111,44 @@ def _name(result: Result, number: int, frame: int) -> str:
     if square < 0.0:
         return f"vibration {number}: unstable"
     return f"vibration {number}: {np.sqrt(square) / (2.0 * np.pi):.4g} Hz"
+
+
+@dataclass(frozen=True)
+class Posed:
+    """Where the bodies of a machine are: their names, places (B, 3) [m], Euler parameters (B, 4), and the attributes of a result."""
+
+    bodies: tuple[str, ...]
+    position: Array
+    orientation: Array
+    size: float
+    attributes: dict[str, str | float | int]
+
+
+def linear_motion(model: LinearModel, number: int) -> Result:
+    """Mode `number` (from 1) of the model: vibrations with a period of a second and their own phases, others rising and falling.
+
+    Raises ModelError where there is no such mode, or where nothing is seen of it.
+    """
+    modes = model.modes
+    if not model.steady:
+        raise ModelError(f"the model has no modes: {' '.join(model.notes)}")
+    if not 1 <= number <= len(modes):
+        raise ModelError(f"the model has no mode {number}: it has 1 to {len(modes)}")
+    column = int(np.flatnonzero(model.eigenvalues.imag >= 0.0)[number - 1])
+    shift, turn, posed = model.shift[column], model.turn[column], model.posed
+    shifted, turning = (float(np.abs(each).max(initial=0.0)) for each in (shift, turn))
+    largest = max(shifted / (SHOWN * posed.size), turning / TURNED)
+    if not largest > 0.0:
+        raise ModelError(f"nothing moves in mode {number}: it is of states beside the motion")
+    time = np.linspace(0.0, CYCLES * PERIOD, FRAMES)
+    phase = np.exp(2j * np.pi * time / PERIOD) / largest
+    places = posed.position + np.real(phase[:, None, None] * shift)
+    axes = np.stack([turned(posed.orientation, np.real(each * turn)) for each in phase])
+    entries: list[Entry] = [
+        ("position", ("time", "body", "xyz"), "m", "position of the body frame, global axes"),
+        ("orientation", ("time", "body", "euler_parameter"), "1", "Euler parameters of the body frame, scalar first"),
+    ]
+    names = {"body": posed.bodies, "xyz": ("x", "y", "z"), "euler_parameter": ("0", "1", "2", "3")}
+    name = f"{model.name}, mode {number}: {modes[number - 1].number_in_words} 1/s"
+    attributes = {**posed.attributes, "machine": name, "settings": json.dumps({"mode": number})}
+    return _motion(entries, names, attributes, time, [places.reshape(FRAMES, -1), axes.reshape(FRAMES, -1)])

@@ -54,12 +54,8 @@ class Pole:
     def words(self) -> str:
         """The pole in a line."""
         taking = ", ".join(name for name, _ in self.participation)
-        continuous = (
-            ""
-            if np.isnan(self.natural_frequency)
-            else f", {self.natural_frequency:.6g} Hz, damping ratio {self.damping_ratio:.4g}"
-        )
-        return f"z = {self.number_in_words}{continuous}; {taking}"
+        continuous = f", {self.natural_frequency:.6g} Hz, damping ratio {self.damping_ratio:.4g}"
+        return f"z = {self.number_in_words}{'' if np.isnan(self.natural_frequency) else continuous}; {taking}"
 
 
 @dataclass(frozen=True)
@@ -94,9 +90,8 @@ class Loop:
         if np.isnan(self.phase_margin):
             return f"loop {self.name}: {gain}, |L| is nowhere one"
         delay = f", delay margin {1e3 * self.delay_margin:.4g} ms" if self.delay_margin > 0.0 else ""
-        return (
-            f"loop {self.name}: {gain}, phase margin {self.phase_margin:.4g}° at {self.phase_frequency:.4g} Hz{delay}"
-        )
+        phase = f"phase margin {self.phase_margin:.4g}° at {self.phase_frequency:.4g} Hz"
+        return f"loop {self.name}: {gain}, {phase}{delay}"
 
 
 @dataclass(frozen=True)
@@ -167,10 +162,12 @@ def loop_of(name: str, period: float, transition: Array, entering: Array, leavin
     """The margins of L(z) = -leaving (z - transition)⁻¹ entering. transition (n, n), entering (n,), leaving (n,)."""
     frequency = _frequencies(period, transition)
     response = _response(period, transition, entering, leaving, frequency)
-    at = _refined(period, transition, entering, leaving)
-    gains = [
-        (1.0 / abs(at(f)), f) for f in _crossings(frequency, response.imag, lambda f: at(f).imag) if at(f).real < 0.0
-    ]
+
+    def at(f: float) -> complex:
+        return complex(_response(period, transition, entering, leaving, np.array([f]))[0])
+
+    real = _crossings(frequency, response.imag, lambda f: at(f).imag)
+    gains = [(1.0 / abs(at(f)), f) for f in real if at(f).real < 0.0]
     last = response[-1]
     if last.real < 0.0:  # at half of the sampling rate L is real
         gains.append((1.0 / abs(last.real), float(frequency[-1])))
@@ -197,19 +194,9 @@ def _frequencies(period: float, transition: Array) -> Array:
 
 
 def _response(period: float, transition: Array, entering: Array, leaving: Array, frequency: Array) -> Complex:
-    one = np.eye(len(transition))
-    z = np.exp(2j * np.pi * period * frequency)
-    inner = np.linalg.solve(
-        z[:, None, None] * one - transition, np.broadcast_to(entering[:, None], (len(z), len(one), 1))
-    )
+    z = np.exp(2j * np.pi * period * frequency)[:, None, None]
+    inner = np.linalg.solve(z * np.eye(len(transition)) - transition, np.tile(entering[:, None], (len(z), 1, 1)))
     return np.asarray(-(inner[:, :, 0] @ leaving), dtype=np.complex128)
-
-
-def _refined(period: float, transition: Array, entering: Array, leaving: Array) -> Callable[[float], complex]:
-    def at(f: float) -> complex:
-        return complex(_response(period, transition, entering, leaving, np.array([f]))[0])
-
-    return at
 
 
 def _crossings(frequency: Array, values: Array, find: Callable[[float], float]) -> list[float]:

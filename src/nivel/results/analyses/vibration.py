@@ -174,23 +174,19 @@ def _refuse_without_end(model: LinearModel, spectra: Mapping[str, Spectrum]) -> 
     """Raise ModelError where vibrations grow, or what nothing damps, or holds, is excited for ever."""
     if not model.stable:
         raise ModelError(model.no_modes or "a model that is not stable has no steady response to a spectrum")
-    residue = np.abs(model.C @ model.right).max(axis=0, initial=0.0) * np.abs(model.left.conj().T @ model.B).max(
-        axis=1, initial=0.0
-    )
+    observed = np.abs(model.C @ model.right).max(axis=0, initial=0.0)
+    residue = observed * np.abs(model.left.conj().T @ model.B).max(axis=1, initial=0.0)
     seen = residue > SEEN * residue.max(initial=0.0)
     for mode in model.modes:
         k = int(np.argmin(np.abs(model.eigenvalues - mode.eigenvalue)))
         f = mode.natural_frequency
         excited = any(each.is_white or each.frequencies[0] <= f <= each.frequencies[-1] for each in spectra.values())
         if not mode.structural and mode.kind == "undamped vibration" and excited and seen[k]:
-            raise ModelError(
-                f"nothing damps the vibration at {f:.6g} Hz, so its response to a spectrum has no end: give it damping"
-            )
+            endless = "so its response to a spectrum has no end: give it damping"
+            raise ModelError(f"nothing damps the vibration at {f:.6g} Hz, {endless}")
     if model.structural.any() and any(each.is_white for each in spectra.values()):
-        message = (
-            "white noise moves what has no stiffness without end: give the spectrum of a band, frequencies and levels"
-        )
-        raise ModelError(message)
+        advice = "give the spectrum of a band, frequencies and levels"
+        raise ModelError(f"white noise moves what has no stiffness without end: {advice}")
 
 
 def _white(model: LinearModel, name: str, spectrum: Spectrum) -> Array:
@@ -245,10 +241,8 @@ def _uniform(of: Curve, step: float) -> Array:
 def _one(result: Result, name: str) -> Curve:
     """Raises ModelError where it is not one number at each time, or there is one time alone."""
     found = curve_of(result, name)
-    if found.value.shape[1] != 1 or len(found.time) < 2:
-        raise ModelError(
-            Fault.at(name, f"one number over time was expected; it has {found.value.shape[1]}: name one of them")
-        )
+    if (count := found.value.shape[1]) != 1 or len(found.time) < 2:
+        raise ModelError(Fault.at(name, f"one number over time was expected; it has {count}: name one of them"))
     return found
 
 
@@ -295,10 +289,8 @@ def waterfall(result: Result, name: str, resolution: float) -> xarray.DataArray:
     step = float(np.median(of.step[of.step > 0.0]))
     place, f, values = _short_time(_uniform(of, step), step, 1.0 / resolution)
     facts = {"units": result.units(name), "long_name": f"amplitude of {name}"}
-    coords: dict[str, Any] = {
-        "time": ("time", of.time[0] + place, {"units": "s"}),
-        "frequency": ("frequency", f, {"units": "Hz"}),
-    }
+    time = {"time": ("time", of.time[0] + place, {"units": "s"})}
+    coords: dict[str, Any] = {**time, "frequency": ("frequency", f, {"units": "Hz"})}
     return xarray.DataArray(values, coords=coords, dims=("time", "frequency"), attrs=facts)
 
 

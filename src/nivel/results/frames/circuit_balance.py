@@ -135,7 +135,8 @@ def _of_piston(result: Readable, data: Mapping[str, Any]) -> tuple[float, float]
 def _edges(result: Readable, data: Mapping[str, Any]) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
     """(flow [m³/s], difference of pressure [Pa]) over time of every edge; of gas what stands for that difference in its loss."""
     name, kind = str(data["name"]), str(data["type"])
-    known, gas = ENDS.get(kind, {}), _carries_gas(data)
+    # flows of gas [m³/s] are those at 1 bar, and lose ṁ R T₀ ln(p_a/p_b) of their available energy
+    known, gas = ENDS.get(kind, {}), data.get("sonic_conductance") is not None or kind == "tube"
     for variable in result.variables:
         if not variable.startswith(f"{START}{name}."):
             continue
@@ -147,11 +148,6 @@ def _edges(result: Readable, data: Mapping[str, Any]) -> Iterator[tuple[NDArray[
         a, b = (_pressure(result, data, port) for port in ends)
         if flow is not None and a is not None and b is not None:
             yield flow, REFERENCE_PRESSURE * np.log(a / b) if gas else a - b
-
-
-def _carries_gas(data: Mapping[str, Any]) -> bool:
-    """Whether gas flows through a component: its flow [m³/s] is that at 1 bar, and it loses ṁ R T₀ ln(p_a/p_b) of its available energy."""
-    return data.get("sonic_conductance") is not None or data.get("type") == "tube"
 
 
 def _named(quantity: str, data: Mapping[str, Any]) -> tuple[str, str] | None:

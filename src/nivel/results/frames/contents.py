@@ -23,7 +23,7 @@ import nivel
 from nivel.errors import ModelError
 from nivel.integrate.loop.sink import Header
 from nivel.lazy import dataclass, replace
-from nivel.system.layout import FrameLayout, Variable
+from nivel.system.layout import Variable
 
 
 class Contents(Protocol):
@@ -62,37 +62,25 @@ def name_of(in_file: str) -> str:
     return in_file.replace(IN_FILES, SLASH)
 
 
-def present_variables(layout: FrameLayout) -> dict[str, Variable]:
-    """The variables that have at least one column: a machine without joints has no joint forces."""
-    return {variable.name: variable for variable in layout.variables if variable.columns.stop > variable.columns.start}
-
-
 def shape_of(variable: Variable, coordinates: Mapping[str, tuple[str, ...]]) -> tuple[int, ...]:
     """Lengths of the dimensions after time."""
     return tuple(len(coordinates[dim]) for dim in variable.dims[1:])
 
 
-def apart_from_variables(layout: FrameLayout) -> dict[str, str]:
-    """Dimension → its name in the result.
-
-    A dimension may not carry the name of a variable of several dimensions (xarray refuses it), so such a dimension gets
-    `_name` appended: the variable `joint_coordinate` lies along the dimension `joint_coordinate_name`.
-    """
-    names = {variable.name for variable in layout.variables}
-    return {dim: f"{dim}_name" if dim in names else dim for dim in layout.coordinates}
-
-
 def resolved(header: Header) -> tuple[dict[str, Variable], dict[str, tuple[str, ...]]]:
-    """Variables and coordinates of a header as they stand in a result: without empty ones, dimensions renamed."""
+    """Variables and coordinates of a header as they stand in a result: without those that have no column, as joint forces of a machine
+    without joints. A dimension may not carry the name of a variable of several dimensions (xarray refuses it), so such a one gets `_name`
+    appended: the variable `joint_coordinate` lies along the dimension `joint_coordinate_name`."""
     layout = header.layout
-    rename = apart_from_variables(layout)
+    rename = {dim: f"{dim}_name" for dim in layout.coordinates if dim in {each.name for each in layout.variables}}
     variables = {
-        name: replace(variable, dims=tuple(rename.get(dim, dim) for dim in variable.dims))
-        for name, variable in present_variables(layout).items()
+        each.name: replace(each, dims=tuple(rename.get(dim, dim) for dim in each.dims))
+        for each in layout.variables
+        if each.columns.stop > each.columns.start
     }
     used = {dim for variable in variables.values() for dim in variable.dims[1:]}
-    coordinates = {rename[dim]: tuple(names) for dim, names in layout.coordinates.items() if rename[dim] in used}
-    return variables, coordinates
+    along = {rename.get(dim, dim): tuple(names) for dim, names in layout.coordinates.items()}
+    return variables, {dim: names for dim, names in along.items() if dim in used}
 
 
 FORMAT: Final = 1

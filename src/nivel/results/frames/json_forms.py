@@ -67,36 +67,23 @@ NAMED: Final = [{"name": str}]
 RECORD: Final = {
     "gravity?": VECTOR,
     "simulation?": {},
-    **{
-        f"{section}?": NAMED
-        for section in (
-            *("bodies", "beams", "joints", "couplings", "drivers", "forces", "hydraulics"),
-            *("inputs", "states", "control", "sensors", "events"),
-        )
-    },
+    **dict.fromkeys(("bodies?", "beams?", "joints?", "couplings?", "drivers?", "forces?", "hydraulics?"), NAMED),
+    **dict.fromkeys(("inputs?", "states?", "control?", "sensors?", "events?"), NAMED),
+}
+SETTINGS: Final = {
+    **dict.fromkeys(("duration?", "step?", "output_interval?", "tolerance?", "largest_step?"), Either((None, float))),
+    **dict.fromkeys(("integrator?", "formulation?", "coordinates?", "stabilisation?"), Either((None, str))),
 }
 CHANGE: Final = (str, float, float)
 FORMS: Final[dict[str, Any]] = {
     "scene": SCENE,
     "machine_record": RECORD,
-    "settings": {
-        **{
-            f"{key}?": Either((None, float))
-            for key in ("duration", "step", "output_interval", "tolerance", "largest_step")
-        },
-        **{f"{key}?": Either((None, str)) for key in ("integrator", "formulation", "coordinates", "stabilisation")},
-    },
+    "settings": SETTINGS,
     "timing": {"*": float},
     "iterations": {"length": float, "part": [int], "steps": [int], "total": [int], "most": [int]},
     "buckling": [{"time": float, "moves": str}],
     "flexible_bodies": [{"name": str, "file": str, "modes": [int], "fingerprint": str}],
-    "assembly": {
-        "gap?": float,
-        "gap_row?": str,
-        "moved?": [CHANGE],
-        "velocity_change?": [CHANGE],
-        "followed?": [str],
-    },
+    "assembly": {"gap?": float, "gap_row?": str, "followed?": [str], "moved?": [CHANGE], "velocity_change?": [CHANGE]},
     "constraint_units": {"*": str},
     "coordinate_units": {"*": str},
 }

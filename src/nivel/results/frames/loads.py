@@ -46,8 +46,7 @@ def with_probes(result: Result, variable: str, of: Curve) -> Curve:
     off = probed(result.attributes).get(variable)
     if off is None:
         return of
-    more = np.linalg.norm(np.asarray(off, dtype=float).reshape(of.value.shape[1], -1), axis=1)
-    return of.doubted(more)
+    return of.doubted(np.linalg.norm(np.asarray(off, dtype=float).reshape(of.value.shape[1], -1), axis=1))
 
 
 def open_numbers(of: Curve, found: Number, words: str, names: Sequence[str], units: str) -> list[str]:
@@ -102,10 +101,8 @@ def _of_cycle(power: Curve, period: float) -> Number:
     """Work [J] from the end of the result back over one period."""
     first, last = float(power.time[0]), float(power.time[-1])
     if not 0.0 < period <= (last - first) * (1.0 + 1e-9):
-        message = (
-            f"a period above zero and up to the {last - first:.6g} s of the result was expected, got {period:.6g} s"
-        )
-        raise ModelError(message)
+        wanted = f"a period above zero and up to the {last - first:.6g} s of the result"
+        raise ModelError(f"{wanted} was expected, got {period:.6g} s")
     return integral(power.within(max(last - period, first), last))
 
 
@@ -136,11 +133,8 @@ def cycles(result: Result, name: str, *, repeating: bool = False) -> xarray.Data
         "mean": (("cycle",), columns[:, 1], units),
         "count": (("cycle",), columns[:, 2], {"units": "1"}),
     }
-    lacks = (
-        [f"{name} between frames, where cycles may be larger"]
-        if of.is_told(np.max(of.doubt, axis=0, initial=0.0))[0]
-        else []
-    )
+    is_open = of.is_told(np.max(of.doubt, axis=0, initial=0.0))[0]
+    lacks = [f"{name} between frames, where cycles may be larger"] * int(is_open)
     return xarray.Dataset(data, attrs={"signal": name, **result.trust.of_derived(*lacks).attributes()})
 
 

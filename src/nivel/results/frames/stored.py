@@ -55,9 +55,7 @@ def _opened_while_running(path: Path) -> h5py.File:
     except PermissionError:
         raise ModelError(f"{path} may not be read: permission denied") from None
     except (OSError, RuntimeError):
-        made_by = (
-            f"; `nivel run {path}` makes the result of a machine" if Path(path).suffix in (".yaml", ".yml") else ""
-        )
+        made_by = f"; `nivel run {path}` makes the result of a machine" if path.suffix in (".yaml", ".yml") else ""
         raise ModelError(f"{path} is not a result of nivel (NetCDF-4){made_by}") from None
 
 
@@ -68,14 +66,14 @@ class StoredContents:
     was doing. What this process has just written need not be read: see `of`.
     """
 
+    attributes: dict[str, str | float | int]
+    variables: dict[str, Variable]
+    coordinates: dict[str, tuple[str, ...]]
+    frame_count: int
     _memory: MemoryContents | None = None
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.attributes: dict[str, str | float | int]
-        self.variables: dict[str, Variable]
-        self.coordinates: dict[str, tuple[str, ...]]
-        self.frame_count: int
         with opened(path) as file:
             written: Mapping[str, Any] = {}
             try:
@@ -120,7 +118,9 @@ class StoredContents:
             if name == "time":
                 continue
             name.encode()
-            _refuse_hollow(name, dataset)
+            claimed = 8 * int(dataset.size or 0)
+            if claimed > SMALL and dataset.id.get_storage_size() < LEAST_SHARE * claimed:
+                raise ValueError(f"`{name}` claims {dataset.size} numbers, which it does not hold")
             if dataset.is_scale:
                 self.coordinates[name] = tuple(dataset.asstr()[()])
                 continue
@@ -167,13 +167,6 @@ def _dataset(file: h5py.File, name: str) -> Any:
     if not isinstance(dataset, h5py.Dataset) or dataset.is_virtual or dataset.external:
         raise ValueError(f"`{name}` is no variable, or one of another file")
     return dataset
-
-
-def _refuse_hollow(name: str, dataset: h5py.Dataset) -> None:
-    """Raises ValueError where memory for many more numbers would be taken than the file can hold."""
-    claimed = 8 * int(dataset.size or 0)
-    if claimed > SMALL and dataset.id.get_storage_size() < LEAST_SHARE * claimed:
-        raise ValueError(f"`{name}` claims {dataset.size} numbers, which it does not hold")
 
 
 @contextmanager

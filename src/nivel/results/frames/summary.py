@@ -96,10 +96,8 @@ def _examples(result: Result) -> list[str]:
     firsts: dict[str, str] = {}
     for name in result.names:
         found = result.selection(name)
-        if (
-            len(found.where) == len(result.variables[found.variable].dims[1:2]) + 1
-            or not result.variables[found.variable].dims[1:]
-        ):
+        dims = result.variables[found.variable].dims[1:]
+        if not dims or len(found.where) == 2:
             firsts.setdefault(found.variable, name)
     return list(firsts.values())[:8]
 

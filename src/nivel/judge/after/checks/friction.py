@@ -20,7 +20,7 @@ from nivel.machine.uses.coordinate_reference import resolve
 from nivel.results.frames.contents import own_units
 from nivel.results.scales import Readable, machine_size, span
 from nivel.results.trust import Item
-from nivel.system.system import Array, System
+from nivel.system.system import Array
 from nivel.words.wording import first_of
 
 # A rate below this share of the largest one of the run, and of the machine's size or a radian once in the run, is none.
@@ -129,15 +129,10 @@ def resting_frictions(
             arm = system.record.friction.number[system.frictions.index(force.name), columns.ARM]
             sticking.append(Sticking(force.name, name, moves[k], float(force.static * arm), force.viscous))
         elif driven or not machine.is_flexible:
-            held.append(Held(force.name, name, *_owners(system, used)))
+            owners = {system.row_owner[row]: system.rows[row].endswith(".driver") for row in used}
+            drivers = tuple(name for name, drives in owners.items() if drives)
+            held.append(Held(force.name, name, *(drivers, tuple(name for name in owners if name not in drivers))))
     return tuple(held), tuple(sticking)
-
-
-def _owners(system: System, rows: NDArray[np.intp]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Drivers, and joints and couplings, whose rows these are."""
-    owners = {system.row_owner[row]: system.rows[row].endswith(".driver") for row in rows}
-    drivers = tuple(name for name, drives in owners.items() if drives)
-    return drivers, tuple(name for name in owners if name not in drivers)
 
 
 def contacts_together(run: Run) -> tuple[Shared, ...]:

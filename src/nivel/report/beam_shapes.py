@@ -76,15 +76,13 @@ def _svg(frame: Frame, lines: dict[str, Array], colours: list[str], tracks: list
     for k in range(len(times)):
         for colour, (name, shape) in zip(colours, lines.items(), strict=True):
             style = f'stroke="{colour}" stroke-opacity="{opacity[k]:.2f}"'
-            parts.append(
-                f'<path class="line" {style} d="{_path(shape[k])}"><title>{escape(name)}, {times[k]:.4g} s</title></path>'
-            )
+            title = f"<title>{escape(name)}, {times[k]:.4g} s</title>"
+            parts.append(f'<path class="line" {style} d="{_path(shape[k])}">{title}</path>')
     last = list(lines.values())[-1][:, -1]
     labels = [Label(f"{time:.3g} s", float(x), float(y), "aid") for time, (x, y) in zip(times, last, strict=True)]
     placed = place(labels, np.array([*bar_strip(bar), triad]), np.empty((0, 2, 2)), WIDTH, frame.height)
-    texts = (
-        f'<text x="{each.centre[0]:.1f}" y="{each.centre[1] + 4.0:.1f}">{each.label.text}</text>' for each in placed
-    )
+    middles = [(*each.centre, each.label.text) for each in placed]
+    texts = [f'<text x="{x:.1f}" y="{y + 4.0:.1f}">{text}</text>' for x, y, text in middles]
     box = f'viewBox="0 0 {WIDTH:.0f} {frame.height:.0f}"'
     aids = triad_sign(frame, triad) + scale_bar(frame, bar)
     return (

@@ -13,18 +13,9 @@ from nivel.lazy import dataclass
 from nivel.report.page import page, text_of
 from nivel.report.plots import LogAxis, power_of_ten
 from nivel.report.story import trusted
+from nivel.results import comparison_table as told
 from nivel.results.comparison import Comparison, Method, Row, method_label
-from nivel.results.comparison_table import (
-    CONVERGED,
-    fineness,
-    motion,
-    not_converged,
-    number,
-    order,
-    seconds,
-    simulated,
-    stops,
-)
+from nivel.results.comparison_table import fineness, number, seconds
 from nivel.results.motion import DEFINITION
 
 TONES: Final = 8  # colours of the page
@@ -77,6 +68,14 @@ class Curve:
         """Path of its marker around the origin."""
         return MARKERS[self.kind % len(MARKERS)]
 
+    @property
+    def mark(self) -> str:
+        """A small SVG with its line and its marker, for the legend."""
+        return (
+            f'<svg class="mark" viewBox="0 0 34 14" width="34" height="14" aria-hidden="true"><g class="curve" style="{self.style}">'
+            f'<path class="line" d="M1 7H33"/><path class="point" transform="translate(17 7)" d="{self.marker}"/></g></svg>'
+        )
+
 
 def curves(comparison: Comparison) -> list[Curve]:
     """The curves of the diagram, none without a reference.
@@ -128,14 +127,6 @@ def diagram(comparison: Comparison, size: Size, kind: str) -> str:
     )
 
 
-def legend_mark(curve: Curve) -> str:
-    """A small SVG with the line and the marker of a curve."""
-    return (
-        f'<svg class="mark" viewBox="0 0 34 14" width="34" height="14" aria-hidden="true"><g class="curve" style="{curve.style}">'
-        f'<path class="line" d="M1 7H33"/><path class="point" transform="translate(17 7)" d="{curve.marker}"/></g></svg>'
-    )
-
-
 def _grid(across: LogAxis, up: LogAxis, size: Size) -> str:
     left, right, low, high = across.start, across.end, up.start, up.end
     out = []
@@ -148,11 +139,10 @@ def _grid(across: LogAxis, up: LogAxis, size: Size) -> str:
         out.append(f'<path class="grid" d="M{left:.1f} {y:.1f}H{right:.1f}"/>')
         out.append(f'<text class="tick" x="{left - 8:.1f}" y="{y + 4:.1f}" text-anchor="end">{tick.label}</text>')
     out.append(f'<path class="frame" d="M{left:.1f} {high:.1f}V{low:.1f}H{right:.1f}"/>')
-    middle, bottom = 0.5 * (left + right), size.height - 8
-    out.append(f'<text class="axis" x="{middle:.1f}" y="{bottom:.1f}" text-anchor="middle">time in the loop</text>')
-    out.append(
-        f'<text class="axis" transform="translate(13 {0.5 * (low + high):.1f}) rotate(-90)" text-anchor="middle">error of the motion</text>'
-    )
+    place = f'x="{0.5 * (left + right):.1f}" y="{size.height - 8:.1f}"'
+    out.append(f'<text class="axis" {place} text-anchor="middle">time in the loop</text>')
+    place = f'transform="translate(13 {0.5 * (low + high):.1f}) rotate(-90)"'
+    out.append(f'<text class="axis" {place} text-anchor="middle">error of the motion</text>')
     return "".join(out)
 
 
@@ -180,11 +170,12 @@ def _curve(comparison: Comparison, curve: Curve, across: LogAxis, up: LogAxis) -
 
 def _told(comparison: Comparison, curve: Curve, row: Row) -> str:
     """What hovering over a point says."""
-    word = "step" if row.step is not None else "tolerance"
-    error = (
-        number(row.motion_error, 2) if comparison.is_resolved(row) else f"{number(row.motion_error, 2)}, not resolved"
+    word, doubt = (
+        "step" if row.step is not None else "tolerance",
+        "" if comparison.is_resolved(row) else ", not resolved",
     )
-    return f"{curve.label}\n{word} {fineness(row)}: error {error} in {seconds(row.loop_seconds)}, {row.steps} steps"
+    error = f"error {number(row.motion_error, 2)}{doubt}"
+    return f"{curve.label}\n{word} {fineness(row)}: {error} in {seconds(row.loop_seconds)}, {row.steps} steps"
 
 
 def _error(row: Row) -> float:
@@ -256,13 +247,13 @@ def comparison_html(comparison: Comparison) -> str:
         curves=curves(comparison),
         wide=diagram(comparison, WIDE, "wide"),
         narrow=diagram(comparison, NARROW, "narrow"),
-        mark=legend_mark,
+        mark=lambda curve: curve.mark,
         columns=COLUMNS,
         cells=lambda row: _cells(comparison, row),
         label=comparison.label,
         fineness=fineness,
         definition=DEFINITION,
-        converged=f"{CONVERGED:g}",
+        converged=f"{told.CONVERGED:g}",
         script=text_of("compare.js"),
     )
 
@@ -272,7 +263,7 @@ def _title(comparison: Comparison) -> str:
     ended = completed - len(comparison.stopped)
     ran = f"{'All' if ended == rows else ended or 'None'} of them ran to the end."
     cells = "1 run" if rows == 1 else f"{rows} runs"
-    stopped = [f"{line[0].upper()}{line[1:]}." for line in stops(comparison)]
+    stopped = [f"{line[0].upper()}{line[1:]}." for line in told.stops(comparison)]
     missing = ["Interrupted: cells are missing."] if comparison.outcome != "done" else []
     return " ".join([f"Methods compared in {cells}. {ran}", *stopped, *missing])
 
@@ -280,7 +271,7 @@ def _title(comparison: Comparison) -> str:
 def _facts(comparison: Comparison) -> list[str]:
     """What all cells share."""
     return [
-        simulated(comparison),
+        told.simulated(comparison),
         f"a frame every {seconds(comparison.output_interval)}",
         f"times are the least of {comparison.repeat}",
         *comparison.common,
@@ -291,7 +282,7 @@ def _stats(comparison: Comparison) -> list[Stat]:
     out = []
     spread = comparison.spread
     if spread is not None:
-        pair = f"{spread.first} and {spread.second}{not_converged(spread, '. ')}."
+        pair = f"{spread.first} and {spread.second}{told.not_converged(spread, '. ')}."
         text = f"Furthest apart of {spread.methods} methods, each at its finest: {pair}"
         out.append(Stat("How far the methods agree", number(spread.distance, 2), (text,)))
     for reference in comparison.references[:1]:
@@ -324,10 +315,8 @@ def _cells(comparison: Comparison, row: Row) -> list[Shown]:
         Shown(row.steps, str(row.steps), str(row.rejected)),
         Shown(row.evaluations, str(row.evaluations), str(row.iterations)),
         Shown(row.constraint_error, number(row.constraint_error, 2), number(row.constraint_error_mean, 2)),
-        Shown(
-            row.constraint_rate_error, number(row.constraint_rate_error, 2), number(row.constraint_rate_error_mean, 2)
-        ),
+        Shown(rates := row.constraint_rate_error, number(rates, 2), number(row.constraint_rate_error_mean, 2)),
         Shown(row.energy_error_relative, number(row.energy_error_relative, 2), f"{number(row.energy_error, 2)} J"),
-        Shown(row.motion_error, motion(comparison, row), where),
-        Shown(row.order, order(row)),
+        Shown(row.motion_error, told.motion(comparison, row), where),
+        Shown(row.order, told.order(row)),
     ]

@@ -19,6 +19,8 @@ MARGIN = 8.0
 LARGEST = 80  # boxes
 LETTERS = 24  # of a name that is shown
 _SYMBOL: Final = re.compile(r"(?<![\w.])([^\W\d][\w-]*)\.([^\W\d]\w*)")
+# keys whose texts hold no symbols
+PLAIN: Final = ("name", "source", "file", "function", "coordinate", "units", "type", "to")
 # where values of blocks act, besides blocks themselves
 ACTING: Final = ("forces", "states", "events")
 
@@ -79,16 +81,7 @@ def _read(element: Any, blocks: Mapping[str, Any], own: str = "") -> list[str]:
 
 def _texts(value: Any, key: str = "") -> Iterator[str]:
     """All texts of an element that may hold symbols."""
-    if isinstance(value, str) and key not in (
-        "name",
-        "source",
-        "file",
-        "function",
-        "coordinate",
-        "units",
-        "type",
-        "to",
-    ):
+    if isinstance(value, str) and key not in PLAIN:
         yield value
     elif isinstance(value, Mapping):
         for each, inner in value.items():
@@ -134,19 +127,14 @@ def _place(boxes: Mapping[str, Box]) -> tuple[float, float]:
         for k, key in enumerate(sorted(here, key=lambda each: wished[each])):
             row[key] = float(k)
             boxes[key].x, boxes[key].y = MARGIN + (column - 1) * (WIDE + ACROSS), MARGIN + k * (HIGH + DOWN)
-    for column in sorted(columns):
-        _set_heights(sorted(columns[column], key=lambda box: box.y), boxes)
+    for column in sorted(columns):  # down to the height of what they read, without overlap
+        least = MARGIN
+        for box in sorted(columns[column], key=lambda box: box.y):
+            before = [boxes[each].y for each in box.reads if boxes[each].column < box.column]
+            box.y = max(least, _mean(before, least))
+            least = box.y + HIGH + DOWN
     lowest = max(box.y for box in boxes.values())
     return 2 * MARGIN + max(columns) * (WIDE + ACROSS) - ACROSS, lowest + HIGH + MARGIN
-
-
-def _set_heights(here: Sequence[Box], boxes: Mapping[str, Box]) -> None:
-    """Move the boxes of a column, in their order, down to the height of what they read, without overlap."""
-    least = MARGIN
-    for box in here:
-        before = [boxes[each].y for each in box.reads if boxes[each].column < box.column]
-        box.y = max(least, _mean(before, least))
-        least = box.y + HIGH + DOWN
 
 
 def _mean(values: Sequence[float], otherwise: float) -> float:
@@ -168,16 +156,12 @@ def _drawn(box: Box) -> str:
     """A box with its name and kind."""
     name = box.name if len(box.name) <= LETTERS else f"{box.name[: LETTERS - 1]}…"
     middle = box.y + 0.5 * HIGH
-    first = middle - 2.0 if box.words else middle + 4.5
-    words = (
-        f'<text class="kind" x="{box.x + 0.5 * WIDE:.1f}" y="{middle + 13:.1f}">{escape(box.words)}</text>'
-        if box.words
-        else ""
-    )
+    first, across = middle - 2.0 if box.words else middle + 4.5, f"{box.x + 0.5 * WIDE:.1f}"
+    words = f'<text class="kind" x="{across}" y="{middle + 13:.1f}">{escape(box.words)}</text>'
     return (
         f'<g class="{box.kind}"><title>{escape(box.name)}</title>'
         f'<rect x="{box.x:.1f}" y="{box.y:.1f}" width="{WIDE:.0f}" height="{HIGH:.0f}" rx="6"/>'
-        f'<text x="{box.x + 0.5 * WIDE:.1f}" y="{first:.1f}">{escape(name)}</text>{words}</g>'
+        f'<text x="{across}" y="{first:.1f}">{escape(name)}</text>{words if box.words else ""}</g>'
     )
 
 

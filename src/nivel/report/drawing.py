@@ -61,8 +61,13 @@ def place(labels: list[Label], points: Array, lines: Array, width: float, height
     around = _Surroundings(points, lines)
     for label in labels[:: -(-len(labels) // TRIED) or 1]:
         near = around.of(label)
-        found = [(_cost(box, far, placed, near, width, height), box) for box, far in _candidates(label)]
-        cost, box = min(found, key=lambda each: each[0])
+        inside = [
+            (box, far)
+            for box, far in _candidates(label)
+            if box[0] >= 2.0 and box[1] >= 2.0 and box[2] <= width - 2.0 and box[3] <= height - 2.0
+        ]
+        found = [(_cost(box, far, placed, near), box) for box, far in inside]
+        cost, box = min(found, key=lambda each: each[0], default=(np.inf, (0.0, 0.0, 0.0, 0.0)))
         if cost < limit:
             placed.append(Placed(label, box))
     return placed
@@ -109,19 +114,8 @@ def _eased(direction: float) -> float:
     return float(np.clip(1.4 * direction, -1.0, 1.0))
 
 
-def _cost(
-    box: Box,
-    far: float,
-    placed: list[Placed],
-    near: tuple[Array, Array, NDArray[np.int64]],
-    width: float,
-    height: float,
-) -> float:
-    left, top, right, bottom = box
-    if left < 2.0 or top < 2.0 or right > width - 2.0 or bottom > height - 2.0:
-        return np.inf
-    points, samples, line = near
-    cost = far
+def _cost(box: Box, far: float, placed: list[Placed], near: tuple[Array, Array, NDArray[np.int64]]) -> float:
+    (left, top, right, bottom), (points, samples, line), cost = box, near, far
     for other in placed:
         a = other.box
         if left < a[2] + 3.0 and right > a[0] - 3.0 and top < a[3] + 1.0 and bottom > a[1] - 1.0:
@@ -259,24 +253,15 @@ def scale_bar(frame: Frame, middle: Array) -> str:
     metres = 90.0 / frame.scale
     power = 10.0 ** np.floor(np.log10(metres))
     length = max(step * power for step in (1.0, 2.0, 5.0) if step * power <= metres)
-    pixels = length * frame.scale
-    if middle[0] < 0.5 * WIDTH:
-        left = 14.0
-        text = f'<text class="aid" style="text-anchor:start" x="{left + pixels + 6:.1f}" y="{middle[1] + 21:.1f}">'
-    else:
-        left = WIDTH - 14.0 - pixels
-        text = f'<text class="aid" style="text-anchor:end" x="{left - 6:.1f}" y="{middle[1] + 21:.1f}">'
-    y = middle[1] + 20.0
+    pixels, on_left, y = length * frame.scale, middle[0] < 0.5 * WIDTH, middle[1] + 20.0
+    left = 14.0 if on_left else WIDTH - 14.0 - pixels
+    anchor, x = ("start", left + pixels + 6) if on_left else ("end", left - 6)
     path = f"M{left:.1f} {y - 4:.1f}V{y:.1f}H{left + pixels:.1f}V{y - 4:.1f}"
-    return f'<path class="aid-line" d="{path}"/>{text}{_length(float(length))}</text>'
-
-
-def _length(metres: float) -> str:
-    if metres >= 1000.0:
-        return f"{metres / 1000.0:g} km"
-    if metres >= 1.0:
-        return f"{metres:g} m"
-    return f"{metres * 1e3:g} mm" if metres >= 1e-3 else f"{metres * 1e6:g} µm"
+    units = ((1e3, "km"), (1.0, "m"), (1e-3, "mm"), (0.0, "µm"))
+    unit = next(word for least, word in units if length >= least)
+    shown = f"{float(length) * {'km': 1e-3, 'm': 1.0, 'mm': 1e3, 'µm': 1e6}[unit]:g} {unit}"
+    text = f'<text class="aid" style="text-anchor:{anchor}" x="{x:.1f}" y="{y + 1:.1f}">{shown}</text>'
+    return f'<path class="aid-line" d="{path}"/>{text}'
 
 
 def triad_sign(frame: Frame, middle: Array) -> str:

@@ -137,10 +137,8 @@ def _panel(
                 by_unit.setdefault(_unit(result, f"{section}.{element}.{output}"), []).append(element)
         for unit, elements in by_unit.items():
             most = max(most, len(elements))
-            curves = tuple(
-                Curve(name, result.array(f"{section}.{name}.{output}"), str(k))
-                for k, name in enumerate(elements[:MOST])
-            )
+            values = [(name, result.array(f"{section}.{name}.{output}")) for name in elements[:MOST]]
+            curves = tuple(Curve(name, each, str(k)) for k, (name, each) in enumerate(values))
             groups.append(Group(f"{word}, {unit}", unit, curves, floor=floors.get(unit, 0.0)))
     return Panel(title, tuple(groups), note=left_out(most, MOST)) if groups else None
 

@@ -27,7 +27,8 @@ def draw_force(drawing: Drawing, frame: Frame, force: dict[str, Any], poses: dic
     if force["type"] == "contact":
         return
     if "wheels" in force:
-        _draw_wound(drawing, frame, force, poses)
+        _draw_line(drawing, force, force["bodies"], frame.pixels(rope_line(force, poses)))
+        _draw_ground(drawing, frame, force["bodies"], frame.pixels(ends_in_space(force, poses)))
         return
     if len(force["bodies"]) > 2:
         for k in range(len(force["bodies"]) - 1):
@@ -57,12 +58,6 @@ def draw_force(drawing: Drawing, frame: Frame, force: dict[str, Any], poses: dic
         return
     middle = 0.5 * (ends[0] + ends[1]) if force["type"] != "torsional-spring-damper" else ends[0]
     drawing.labels.append(Label(force["name"], float(middle[0]), float(middle[1]), "force-name"))
-
-
-def _draw_wound(drawing: Drawing, frame: Frame, rope: dict[str, Any], poses: dict[str, Pose]) -> None:
-    """Draw a rope around wheels with its name at its longest part."""
-    _draw_line(drawing, rope, rope["bodies"], frame.pixels(rope_line(rope, poses)))
-    _draw_ground(drawing, frame, rope["bodies"], frame.pixels(ends_in_space(rope, poses)))
 
 
 def _draw_line(drawing: Drawing, element: dict[str, Any], joined: list[str], line: Array) -> None:

@@ -39,14 +39,11 @@ def linear_html(model: LinearModel) -> str:
 
 
 def _facts(model: LinearModel) -> list[str]:
-    said = "no modes"
-    if model.steady:
-        said = "stable" if model.stable else "unstable"
     return [
         f"linear about {model.about}",
         f"{len(model.states)} states in {model.coordinates} coordinates",
         f"{len(model.inputs)} inputs, {len(model.outputs)} outputs",
-        said,
+        "no modes" if not model.steady else "stable" if model.stable else "unstable",
     ]
 
 
@@ -88,14 +85,14 @@ def _bode(model: LinearModel) -> list[tuple[str, str]]:
             continue
         sizes = [Line(label, f, np.abs(values)) for label, values in found]
         turns = [Line(label, f, np.degrees(np.unwrap(np.angle(values)))) for label, values in found]
-        unit = f"{name} [{model.input_units[k]}]"
-        out.append(
-            (
-                curves(sizes, "frequency [Hz]", f"magnitude over {unit}", log_x=True, log_y=True),
-                curves(turns, "frequency [Hz]", "phase [°]", log_x=True),
-            )
-        )
+        out.append(_pair(sizes, f"magnitude over {name} [{model.input_units[k]}]", turns))
     return out
+
+
+def _pair(sizes: list[Line], title: str, turns: list[Line]) -> tuple[str, str]:
+    """Plots of magnitudes and of phases."""
+    over = curves(sizes, "frequency [Hz]", title, log_x=True, log_y=True)
+    return over, curves(turns, "frequency [Hz]", "phase [°]", log_x=True)
 
 
 def _random(model: LinearModel) -> dict[str, Any] | None:
@@ -128,36 +125,21 @@ def _sampled(model: LinearModel) -> dict[str, Any] | None:
     labels = [f"{z.real:.5g} {z.imag:+.5g}i" for z in own.poles]
     loops = []
     for loop in own.loops:
-        f, size = loop.frequency, np.abs(loop.response)
-        phase = np.degrees(np.unwrap(np.angle(loop.response)))
-        drawn = [Line("|L|", f, size), Line("1", f, np.ones_like(f))]
+        f, phase = loop.frequency, np.degrees(np.unwrap(np.angle(loop.response)))
+        drawn = [Line("|L|", f, np.abs(loop.response)), Line("1", f, np.ones_like(f))]
         turned = [Line("phase of L", f, phase), Line("-180°", f, np.full_like(f, -180.0))]
-        loops.append(
-            (
-                loop.words,
-                curves(drawn, "frequency [Hz]", "magnitude of the open loop", log_x=True, log_y=True),
-                curves(turned, "frequency [Hz]", "phase [°]", log_x=True),
-            )
-        )
+        loops.append((loop.words, *_pair(drawn, "magnitude of the open loop", turned)))
     return {"words": own.words, "poles": rows, "plane": unit_circle(own.poles, labels), "loops": loops}
 
 
 def _matrices(model: LinearModel) -> list[tuple[str, list[str], list[tuple[str, list[str]]]]]:
-    wanted = (
-        ("A", model.A, model.states, model.states),
-        ("B", model.B, model.states, model.inputs),
-        ("C", model.C, model.outputs, model.states),
-        ("D", model.D, model.outputs, model.inputs),
-    )
-    return [
-        (
-            title,
-            list(columns),
-            [(name, [f"{value:.6g}" for value in row]) for name, row in zip(rows, values, strict=True)],
-        )
-        for title, values, rows, columns in wanted
-        if values.size > 0 and max(values.shape) <= MOST_ENTRIES
-    ]
+    out = []
+    for title in "ABCD":
+        values, columns = getattr(model, title), model.states if title in "AC" else model.inputs
+        if values.size > 0 and max(values.shape) <= MOST_ENTRIES:
+            rows = zip(model.states if title in "AB" else model.outputs, values, strict=True)
+            out.append((title, list(columns), [(name, [f"{value:.6g}" for value in row]) for name, row in rows]))
+    return out
 
 
 SWEEP_NOTE = "Modes are followed by their eigenvectors. A vibration meets a multiple of a speed where its line crosses that of the order."

@@ -92,11 +92,9 @@ def _grid(across: Axis, up: Axis, horizontal: Array, vertical: Array) -> str:
         lines.append(f'<line class="grid" x1="{x:.1f}" x2="{x:.1f}" y1="{TOP}" y2="{HEIGHT - BOTTOM}"/>')
         lines.append(f'<text class="tick" x="{x:.1f}" y="{HEIGHT - BOTTOM + 15}">{_short(value)}</text>')
     for value in vertical:
-        y = up.at(value)
+        y, anchor = up.at(value), 'style="text-anchor:end"'
         lines.append(f'<line class="grid" x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{y:.1f}" y2="{y:.1f}"/>')
-        lines.append(
-            f'<text class="tick" x="{LEFT - 6}" y="{y + 4:.1f}" style="text-anchor:end">{_short(value)}</text>'
-        )
+        lines.append(f'<text class="tick" x="{LEFT - 6}" y="{y + 4:.1f}" {anchor}>{_short(value)}</text>')
     return "".join(lines)
 
 

@@ -26,17 +26,15 @@ def efforts_html(efforts: Efforts) -> str:
 def _plots(efforts: Efforts) -> list[tuple[str, str]]:
     out, shown = [], range(min(len(efforts.actuators), TONES))
     for unit, word in (("N m", "Torques"), ("N", "Forces")):
-        lines = [
-            Line(efforts.actuators[k], efforts.time, efforts.effort[:, k]) for k in shown if efforts.units[k] == unit
-        ]
+        own = [k for k in shown if efforts.units[k] == unit]
+        lines = [Line(efforts.actuators[k], efforts.time, efforts.effort[:, k]) for k in own]
         if lines:
             out.append((word, curves(lines, "time [s]", f"effort [{unit}]")))
     powers = [Line(efforts.actuators[k], efforts.time, efforts.power[:, k]) for k in shown]
     out.append(("Power", curves(powers, "time [s]", "power [W]")))
     if not efforts.complete:
-        out.append(
-            ("Missing", curves([Line("", efforts.time, 100.0 * efforts.missing_share)], "time [s]", "missing [%]"))
-        )
+        missing = Line("", efforts.time, 100.0 * efforts.missing_share)
+        out.append(("Missing", curves([missing], "time [s]", "missing [%]")))
     return out
 
 
@@ -58,17 +56,14 @@ def mechanism_html(studies: Studies) -> str:
 def _mechanism_plots(studies: Studies) -> list[tuple[str, str]]:
     out = []
     if studies.angles:
-        lines = [
-            Line(what.name, angle["time"].to_numpy(), np.degrees(angle.to_numpy())) for what, angle in studies.angles
-        ]
-        out.append(("Transmission angles", curves(lines, "time [s]", "angle [°]")))
+        angles = [(what.name, angle["time"].to_numpy(), np.degrees(angle.to_numpy())) for what, angle in studies.angles]
+        out.append(("Transmission angles", curves([Line(*each) for each in angles], "time [s]", "angle [°]")))
     for point, curve in studies.curves:
         r, time = curve["position"].to_numpy(), curve["time"].to_numpy()
         # the two axes along which the point moves most
         across, up = sorted(np.argsort(-np.ptp(r, axis=0), kind="stable")[:2])
-        out.append(
-            (f"Path of {point.name}", path_drawing(r[:, across], r[:, up], f"{'xyz'[across]} [m]", f"{'xyz'[up]} [m]"))
-        )
+        drawn = path_drawing(r[:, across], r[:, up], f"{'xyz'[across]} [m]", f"{'xyz'[up]} [m]")
+        out.append((f"Path of {point.name}", drawn))
         for title, name, unit in (("Curvature of the path", "curvature", "1/m"), ("Speed", "speed", "m/s")):
             line = Line("", time, curve[name].to_numpy())
             out.append((f"{title} of {point.name}", curves([line], "time [s]", f"{name} [{unit}]")))

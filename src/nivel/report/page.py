@@ -33,15 +33,8 @@ def page(
     template: str, styles: tuple[str, ...], filters: Mapping[str, Callable[..., str]] | None = None, **values: Any
 ) -> str:
     """The page of a template with its `values`, the style of all pages and further `styles`; `filters` are those of Jinja."""
-    environment = Environment(
-        loader=FileSystemLoader(HERE),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        bytecode_cache=_Kept(str(folder())),
-    )
+    form = {"autoescape": True, "trim_blocks": True, "lstrip_blocks": True}
+    environment = Environment(loader=FileSystemLoader(HERE), bytecode_cache=_Kept(str(folder())), **form)
     environment.filters.update(filters or {})
-    style = "".join(map(text_of, styles))
-    return environment.get_template(template).render(
-        version=__version__, page_style=text_of("page.css"), style=style, **values
-    )
+    looks = {"page_style": text_of("page.css"), "style": "".join(map(text_of, styles))}
+    return environment.get_template(template).render(version=__version__, **looks, **values)

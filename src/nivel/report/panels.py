@@ -108,11 +108,8 @@ def _groups(result: Result, kind: str) -> Iterator[Group]:
         for k, part in enumerate(parts):
             label = f"{words}, {shown}".removesuffix(", 1")
             label += f" ({k + 1} of {len(parts)})" if len(parts) > 1 else ""
-            curves = tuple(
-                Curve(name.removeprefix(START), result.array(name) / factor, str(place))
-                for place, name in enumerate(part)
-            )
-            yield Group(label, shown, curves)
+            values = [(name.removeprefix(START), result.array(name) / factor) for name in part]
+            yield Group(label, shown, tuple(Curve(*each, str(place)) for place, each in enumerate(values)))
 
 
 # radians are counted as cosines are
@@ -137,8 +134,12 @@ def panels(result: Result) -> list[Panel]:
         _reactions(result, "joint_force", "Joint forces", "force", floors["N"]),
         _reactions(result, "joint_torque", "Joint torques", "torque", floors["N m"]),
         _violations(result),
-        _iterations(result),
     ]
+    if (iterations := result.iterations) is not None:  # of implicit methods, between each frame and the one before
+        mean, most = iterations.at(result.time)
+        found.append(
+            Panel("Iterations per step", (Group("", "1", (Curve("mean", mean, "0"), Curve("most", most, "1"))),))
+        )
     return [panel for panel in found if panel is not None and panel.groups]
 
 
@@ -251,17 +252,11 @@ def _violations(result: Result) -> Panel | None:
     """The largest violation of each joint, apart for lengths and cosines, at position and at velocity level."""
     groups = []
     trust = result.trust
-    position, rate = joints.OPENING, joints.RATES
-    for variable, suffix, level, threshold, scales in (
-        ("constraint_violation", "violation", "", position, {"m": trust.size, "1": 1.0}),
-        (
-            "constraint_rate_violation",
-            "rate_violation",
-            " rates",
-            rate,
-            {"m/s": trust.speed, "1/s": trust.speed / trust.size},
-        ),
+    for suffix, level, threshold, scales in (
+        ("violation", "", joints.OPENING, {"m": trust.size, "1": 1.0}),
+        ("rate_violation", " rates", joints.RATES, {"m/s": trust.speed, "1/s": trust.speed / trust.size}),
     ):
+        variable = f"constraint_{suffix}"
         if variable not in result.variables:
             continue
         rows = result.coordinates[result.variables[variable].dims[1]]
@@ -281,13 +276,3 @@ def _violations(result: Result) -> Panel | None:
                 groups.append(Group(f"{word}{level}", unit, curves, limits))
     note = f"the {TOGETHER} worst joints are shown" if len(result.coordinates.get("joint", ())) > TOGETHER else ""
     return Panel("Constraint violations", tuple(groups), log=True, note=note) if groups else None
-
-
-def _iterations(result: Result) -> Panel | None:
-    """Iterations of implicit methods a step, between each frame and the one before (figure 23 of report 44)."""
-    found = result.iterations
-    if found is None:
-        return None
-    mean, most = found.at(result.time)
-    curves = (Curve("mean", mean, "0"), Curve("most", most, "1"))
-    return Panel("Iterations per step", (Group("", "1", curves),))

@@ -9,40 +9,13 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.elements.joints import drawn
+from nivel.looks import solids
 from nivel.looks.poses import Array, Pose, body_poses, in_space, sliding_axes, turning_axes
-from nivel.looks.solids import (
-    FACETS,
-    FEW_FACETS,
-    FEWEST_FACETS,
-    Ball,
-    Face,
-    colour_of,
-    colour_of_body,
-    held_points,
-    link_ends,
-    reach_of,
-    shapes_of,
-    solid,
-)
+from nivel.looks.solids import Ball, Face, link_ends, shapes_of
 from nivel.looks.sweeps import rings, sweep_faces, swept_bodies
 from nivel.looks.viewpoint import choose_view
-from nivel.report.drawing import (
-    FONT,
-    WIDTH,
-    WITHOUT_LINE,
-    Drawing,
-    Frame,
-    Label,
-    aid_places,
-    bar_strip,
-    between,
-    fit,
-    mixed,
-    place,
-    scale_bar,
-    shaded,
-    triad_sign,
-)
+from nivel.report import drawing as pixels
+from nivel.report.drawing import WIDTH, Drawing, Frame, Label, mixed
 from nivel.report.force_drawing import Plane, belt_points, draw_belt, draw_force, draw_plane, force_points, planes
 from nivel.report.strokes import centre_of_mass_sign, draw_joint
 
@@ -58,7 +31,7 @@ def draw_body(
     width = 6.6 * frame.sign
     shapes = shapes_of(body)
     for shape in shapes:
-        _draw_solid(drawing, frame, solid(shape, facets), pose, shape.get("colour", colour))
+        _draw_solid(drawing, frame, solids.solid(shape, facets), pose, shape.get("colour", colour))
     if shapes:
         drawing.lines += [frame.pixels(np.stack([centre, joint])) for joint in in_space(pose, joints)]
         joints, width = link_ends(body, joints), 3.4 * frame.sign  # a shape need not reach its joints
@@ -76,14 +49,6 @@ def draw_body(
         drawing.lines.append(frame.pixels(ends))
 
 
-def draw_sweep(drawing: Drawing, frame: Frame, sweep: dict[str, Any], poses: dict[str, Pose], colour: str) -> None:
-    """Draw one solid through the frames of bodies in a row, with its name at the middle one."""
-    at = poses[sweep["bodies"][len(sweep["bodies"]) // 2]]
-    x, y = frame.pixels(in_space(at, [0.0, 0.0, 0.0])[0])
-    drawing.labels.append(Label(sweep["name"], x, y, "body"))
-    _draw_solid(drawing, frame, sweep_faces(sweep, poses), (np.zeros(3), np.eye(3)), colour)
-
-
 def _draw_solid(drawing: Drawing, frame: Frame, parts: list[Face] | Ball, pose: Pose, colour: str) -> None:
     if isinstance(parts, Ball):
         centre = in_space(pose, parts.centre)[0]
@@ -91,7 +56,7 @@ def _draw_solid(drawing: Drawing, frame: Frame, parts: list[Face] | Ball, pose: 
         bright, dark = mixed(colour, 0.45, 0.0), mixed(colour, 0.0, 0.4)
         rings = "".join(
             f'<circle cx="{x - 0.36 * r * s:.1f}" cy="{y - 0.42 * r * s:.1f}" r="{r * (1 - 0.62 * s):.1f}" '
-            f'fill="{between(colour, bright, s)}"/>'
+            f'fill="{pixels.between(colour, bright, s)}"/>'
             for s in np.linspace(0.0, 1.0, 14)
         )
         outline = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{r:.1f}" fill="none" stroke="{dark}" stroke-width="1"/>'
@@ -102,7 +67,7 @@ def _draw_solid(drawing: Drawing, frame: Frame, parts: list[Face] | Ball, pose: 
     silhouette = _edges_seen_once(seen)
     for k, face in enumerate(seen):
         corners = in_space(pose, face.corners)
-        fill = shaded(colour, pose[1] @ face.normal, frame.view)
+        fill = pixels.shaded(colour, pose[1] @ face.normal, frame.view)
         flat = frame.pixels(corners)
         outline = " ".join(f"{x:.1f},{y:.1f}" for x, y in flat)
         depth = float(frame.view.depth(corners).mean())
@@ -113,11 +78,8 @@ def _draw_solid(drawing: Drawing, frame: Frame, parts: list[Face] | Ball, pose: 
             for i, j in ((i, (i + 1) % len(flat)) for i in range(len(flat)))
             if face.outlined[i] or (k, i) in silhouette
         )
-        dark = mixed(colour, 0.0, 0.45)
-        line = (
-            f'<path d="{edges}" stroke="{dark}" stroke-width="1" stroke-linecap="round" fill="none"/>' if edges else ""
-        )
-        drawing.parts.append((depth, shape + line))
+        style = f'stroke="{mixed(colour, 0.0, 0.45)}" stroke-width="1" stroke-linecap="round" fill="none"'
+        drawing.parts.append((depth, shape + (f'<path d="{edges}" {style}/>' if edges else "")))
 
 
 def _edges_seen_once(faces: list[Face]) -> set[tuple[int, int]]:
@@ -156,21 +118,26 @@ def machine_picture(
     if not len(cloud) or not np.all(np.isfinite(cloud)):
         return ""
     view = choose_view(skeleton, turning_axes(scene, poses), sliding_axes(scene, poses), np.array(up, dtype=float))
-    frame = fit(view, cloud, skeleton)
+    frame = pixels.fit(view, cloud, skeleton)
     return _svg(_drawing(scene, poses, frame, touched), frame)
 
 
 def _drawing(scene: dict[str, Any], poses: dict[str, Pose], frame: Frame, touched: list[Plane]) -> Drawing:
     drawing = Drawing()
     count = len(scene["bodies"])
-    facets = FACETS if count <= MANY_BODIES else FEW_FACETS if count <= VERY_MANY_BODIES else FEWEST_FACETS
+    few = solids.FEW_FACETS if count <= VERY_MANY_BODIES else solids.FEWEST_FACETS
+    facets = solids.FACETS if count <= MANY_BODIES else few
     swept, places = swept_bodies(scene), {body["name"]: k for k, body in enumerate(scene["bodies"])}
-    for sweep in scene.get("sweeps", []):
-        draw_sweep(drawing, frame, sweep, poses, colour_of(places[sweep["bodies"][0]]))
+    for sweep in scene.get(
+        "sweeps", []
+    ):  # one solid through the frames of bodies in a row, with its name at the middle one
+        at, colour = poses[sweep["bodies"][len(sweep["bodies"]) // 2]], solids.colour_of(places[sweep["bodies"][0]])
+        drawing.labels.append(Label(sweep["name"], *frame.pixels(in_space(at, [0.0, 0.0, 0.0])[0]), "body"))
+        _draw_solid(drawing, frame, sweep_faces(sweep, poses), (np.zeros(3), np.eye(3)), colour)
     for k, body in enumerate(scene["bodies"]):
-        if body["name"] in swept:
-            continue
-        draw_body(drawing, frame, body, held_points(scene, body), poses[body["name"]], colour_of_body(body, k), facets)
+        if body["name"] not in swept:
+            colour, held = solids.colour_of_body(body, k), solids.held_points(scene, body)
+            draw_body(drawing, frame, body, held, poses[body["name"]], colour, facets)
     for joint in sorted(scene["joints"], key=lambda joint: drawn(joint["type"]).looks.ground != "rail"):
         draw_joint(drawing, frame, joint, poses)
     for force in scene.get("forces", []):
@@ -191,7 +158,7 @@ def _skeleton(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
 
 def _shapes(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
     """(n, 3) points around the shapes."""
-    shapes = [in_space(poses[b["name"]], reach_of(b)) for b in scene["bodies"] if shapes_of(b)]
+    shapes = [in_space(poses[b["name"]], solids.reach_of(b)) for b in scene["bodies"] if shapes_of(b)]
     swept = [rings(sweep, poses, sweep["section"]).reshape(-1, 3) for sweep in scene.get("sweeps", [])]
     return np.concatenate([belt_points(scene, poses), *shapes, *swept])
 
@@ -202,12 +169,12 @@ def _svg(drawing: Drawing, frame: Frame) -> str:
     strokes = np.concatenate([lines, *edges])
     drawn = (strokes[:, :1] + ALONG * (strokes[:, 1:] - strokes[:, :1])).reshape(-1, 2)
     drawn = np.concatenate([np.array(drawing.points).reshape(-1, 2), drawn])
-    frame, triad, bar = aid_places(drawn, frame)
-    aids = triad_sign(frame, triad) + scale_bar(frame, bar)
+    frame, triad, bar = pixels.aid_places(drawn, frame)
+    aids = pixels.triad_sign(frame, triad) + pixels.scale_bar(frame, bar)
     keep_free = [*drawing.points, *(triad + np.array([10.0 * k, -10.0 * n]) for k in (-1, 0, 1) for n in (-1, 0, 1))]
-    keep_free += list(bar_strip(bar))
+    keep_free += list(pixels.bar_strip(bar))
     labels = sorted(drawing.labels, key=lambda label: IMPORTANCE.index(label.kind))
-    placed = place(labels, np.array(keep_free), lines, WIDTH, frame.height)
+    placed = pixels.place(labels, np.array(keep_free), lines, WIDTH, frame.height)
     texts = "".join(_text(each.label, *each.centre) for each in placed)
     parts = "".join(text for _, text in sorted(drawing.parts, key=lambda part: part[0]))
     box = f'viewBox="0 0 {WIDTH:.0f} {frame.height:.0f}"'
@@ -220,9 +187,11 @@ def _svg(drawing: Drawing, frame: Frame) -> str:
 def _text(label: Label, x: float, y: float) -> str:
     far = np.hypot(label.x - x, label.y - y)
     leader = ""
-    if far > 40.0 and label.kind != WITHOUT_LINE:
+    if far > 40.0 and label.kind != pixels.WITHOUT_LINE:
         ux, uy = (x - label.x) / far, (y - label.y) / far
         start = (label.x + 9.0 * ux, label.y + 9.0 * uy)
         stop = (label.x + (far - 14.0) * ux, label.y + (far - 14.0) * uy)
         leader = f'<path class="leader" d="M{start[0]:.1f} {start[1]:.1f}L{stop[0]:.1f} {stop[1]:.1f}"/>'
-    return f'{leader}<text class="{label.kind}" x="{x:.1f}" y="{y + 0.35 * FONT:.1f}">{escape(label.text)}</text>'
+    return (
+        f'{leader}<text class="{label.kind}" x="{x:.1f}" y="{y + 0.35 * pixels.FONT:.1f}">{escape(label.text)}</text>'
+    )

@@ -112,10 +112,8 @@ def unit_circle(z: NDArray[np.complex128], labels: Sequence[str]) -> str:
     wide = size * (WIDTH - RIGHT - LEFT) / high
     across, up = Axis(-wide, wide, LEFT, WIDTH - RIGHT), Axis(-size, size, HEIGHT - BOTTOM, TOP)
     zero = f'<path class="zero" d="M{across.at(0):.1f} {TOP}V{HEIGHT - BOTTOM}M{LEFT} {up.at(0):.1f}H{WIDTH - RIGHT}"/>'
-    radius = 0.5 * high / size
-    circle = (
-        f'<circle cx="{across.at(0):.1f}" cy="{up.at(0):.1f}" r="{radius:.1f}" fill="none" stroke="var(--tone-1)"/>'
-    )
+    place = f'cx="{across.at(0):.1f}" cy="{up.at(0):.1f}" r="{0.5 * high / size:.1f}"'
+    circle = f'<circle {place} fill="none" stroke="var(--tone-1)"/>'
     marks = [
         f'<path d="M{across.at(each.real) - 4:.1f} {up.at(each.imag) - 4:.1f}l8 8m0 -8l-8 8" stroke="var(--tone-0)" '
         f'stroke-width="1.7"><title>{escape(label)}</title></path>'
@@ -172,11 +170,9 @@ def _drawing(across: Axis | LogAxis, up: Axis | LogAxis, inner: str, x_title: st
 def _legend(lines: Sequence[Line]) -> str:
     if len(lines) < 2:
         return ""
-    items = "".join(
-        f'<li><i style="background:var(--tone-{k % TONES})"></i>{escape(line.label)}</li>'
-        for k, line in enumerate(lines)
-    )
-    return f'<ul class="legend">{items}</ul>'
+    tones = [f"background:var(--tone-{k % TONES})" for k in range(len(lines))]
+    items = [f'<li><i style="{tone}"></i>{escape(line.label)}</li>' for tone, line in zip(tones, lines, strict=True)]
+    return f'<ul class="legend">{"".join(items)}</ul>'
 
 
 LABELS = 8  # at most about so many along an axis

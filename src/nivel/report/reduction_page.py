@@ -61,15 +61,14 @@ def reduction_html(body: ReducedBody, findings: Findings) -> str:
 
 
 def _facts(body: ReducedBody, findings: Findings) -> list[str]:
-    conditions = "mean-axis frame" if body.reference == "mean-axis" else f"frame fixed at {', '.join(body.held)}"
-    facts = [
+    return [
         f"{findings.freedoms} degrees of freedom, {findings.nodes} nodes",
         f"{len(body.eigenvalues)} modes",
         f"{len(findings.boundary)} degrees of freedom of interfaces and {len(findings.normal)} normal modes",
-        conditions,
+        "mean-axis frame" if body.reference == "mean-axis" else f"frame fixed at {', '.join(body.held)}",
         f"{body.mass_kind} mass",
+        *["with geometric stiffness"] * bool(body.stiffening),
     ]
-    return [*facts, "with geometric stiffness"] if body.stiffening else facts
 
 
 def _lines(findings: Findings) -> list[Line]:
@@ -180,7 +179,8 @@ def _picture(body: ReducedBody, mode: int, view: View, triangles: NDArray[np.int
     share = far / (largest or 1.0)
     frame = fit(view, np.concatenate([place, body.position]), body.position[:: max(1, len(body.position) // PROBED)])
     parts = _drawn_lines(frame, body.position, body.lines, None)
-    parts += _faces(frame, place, triangles, share) if len(triangles) else _outline(frame, body)
+    if len(triangles):
+        parts += _faces(frame, place, triangles, share)
     parts += _drawn_lines(frame, place, body.lines, share)
     parts += [_mark(frame, place[each.node]) for each in body.interfaces]
     label = f"mode {mode + 1}, {body.frequencies[mode]:.4g} Hz"
@@ -189,11 +189,6 @@ def _picture(body: ReducedBody, mode: int, view: View, triangles: NDArray[np.int
         f'<svg xmlns="http://www.w3.org/2000/svg" class="mode" viewBox="0 0 {WIDTH:.0f} {height:.0f}" role="img" '
         f'aria-label="{label}">{"".join(parts)}</svg>'
     )
-
-
-def _outline(frame: Frame, body: ReducedBody) -> list[str]:
-    """Nodes as dots where a model has neither lines nor surfaces."""
-    return [] if len(body.lines) else [_mark(frame, x) for x in body.position]
 
 
 def _faces(frame: Frame, place: Array, triangles: NDArray[np.int64], share: Array) -> list[str]:

@@ -11,7 +11,7 @@ from nivel.judge.after.report import titles
 from nivel.lazy import dataclass
 from nivel.report.beam_shapes import beam_nodes
 from nivel.results.frames.summary import in_words
-from nivel.results.trust import NOT_VERIFIED, Item, Trust, Verdict
+from nivel.results.trust import NOT_VERIFIED, Trust, Verdict
 from nivel.words.wording import set_in_motion
 
 if TYPE_CHECKING:
@@ -105,17 +105,13 @@ class Trusted:
 def trusted(trust: Trust) -> Trusted:
     """What a trust report says. Of what was not verified there is no plain yes."""
     lines = trust_lines(trust)
-    if trust.light == NOT_VERIFIED:
-        answer = IN_PART if trust.verified_by else UNVERIFIED
-        return Trusted(answer, "amber", _breaking(_sentence(_nothing_against(trust))), lines)
-    return Trusted(VERDICTS[trust.verdict], trust.verdict, _breaking(_sentence(trust.headline)), lines)
-
-
-def _nothing_against(trust: Trust) -> str:
+    if trust.light != NOT_VERIFIED:
+        return Trusted(VERDICTS[trust.verdict], trust.verdict, _breaking(_sentence(trust.headline)), lines)
     if trust.verified_by:
-        return trust.headline
+        return Trusted(IN_PART, "amber", _breaking(_sentence(trust.headline)), lines)
     left = f": {' and '.join(trust.not_verified)}" if trust.not_verified else ""
-    return f"nothing below is against it, but nothing says how exact it is{left}"
+    said = f"nothing below is against it, but nothing says how exact it is{left}"
+    return Trusted(UNVERIFIED, "amber", _breaking(_sentence(said)), lines)
 
 
 def _reached(result: Result) -> str:
@@ -153,12 +149,14 @@ def facts(result: Result) -> list[str]:
 
 def trust_lines(trust: Trust) -> list[TrustLine]:
     """The items of the trust report as the page shows them. The outcome stands above already."""
-    names = titles()
-    return [
-        TrustLine(names.get(item.name, item.name), item.verdict, _statement(item), _gauge(item))
-        for item in trust.items
-        if item.name != "outcome"
-    ]
+    names, out = titles(), []
+    for item in trust.items:
+        text = _breaking(item.text.split(": ", maxsplit=1)[-1])
+        numbers = [each for each in (item.fraction, item.green, item.amber) if each is not None]
+        gauge = Gauge(*map(_percent, numbers)) if len(numbers) == 3 else None
+        if item.name != "outcome":
+            out.append(TrustLine(names.get(item.name, item.name), item.verdict, text[:1].upper() + text[1:], gauge))
+    return out
 
 
 def settings_table(result: Result) -> list[tuple[str, str]]:
@@ -170,19 +168,13 @@ def settings_table(result: Result) -> list[tuple[str, str]]:
 def timing_table(result: Result) -> list[tuple[str, str]]:
     """What the run took."""
     timing = result.timing
-    out = [
-        (
-            COUNTERS.get(name, name.replace("_", " ")),
-            f"{value / 1e5:.3g} bar" if name.startswith("pressure") else _shown(value, ""),
-        )
-        for name, value in timing.items()
-        if "seconds" not in name and value
-    ]
-    out += [
-        (name.replace("_seconds", " time"), _took(float(value)))
-        for name, value in timing.items()
-        if name.endswith("_seconds")
-    ]
+    out = []
+    for name, value in timing.items():
+        if "seconds" not in name and value:
+            shown = f"{value / 1e5:.3g} bar" if name.startswith("pressure") else _shown(value, "")
+            out.append((COUNTERS.get(name, name.replace("_", " ")), shown))
+    taken = [(name, float(value)) for name, value in timing.items() if name.endswith("_seconds")]
+    out += [(name.replace("_seconds", " time"), _took(value)) for name, value in taken]
     if timing.get("steps") and timing.get("loop_seconds"):
         out.append(("time per step", _took(timing["loop_seconds"] / timing["steps"])))
     out.append(("frames", str(len(result.time))))
@@ -193,7 +185,6 @@ def timing_table(result: Result) -> list[tuple[str, str]]:
 def assembly_lines(result: Result) -> list[str]:
     """What the assembly changed of the given start: each body it moved, then each initial velocity it changed."""
     assembly = json.loads(str(result.attributes.get("assembly", "{}")))
-    moved, changed = assembly.get("moved") or [], assembly.get("velocity_change") or []
     followed = assembly.get("followed") or []
     if assembly.get("gap", 0.0) > ROUND_OFF:
         gap = f"open by up to {_amount(assembly['gap'], 'm or rad')} as given"
@@ -201,15 +192,12 @@ def assembly_lines(result: Result) -> list[str]:
     else:
         why = " to reach the start values of joints"
     moved, changed = (
-        sorted((each for each in found if max(each[1:]) > ROUND_OFF), key=lambda each: -max(each[1:]))
-        for found in (moved, changed)
+        sorted((each for each in assembly.get(key) or () if max(each[1:]) > ROUND_OFF), key=lambda each: -max(each[1:]))
+        for key in ("moved", "velocity_change")
     )
     lines = [f"{name} was moved by {_both(d, 'm', a, 'rad')}{why}" for name, d, a in moved]
-    lines += [
-        f"The velocity of {name} was changed by {_both(v, 'm/s', w, 'rad/s')} to fit the joints"
-        for name, v, w in changed
-        if name not in followed
-    ]
+    speeds = [(name, _both(v, "m/s", w, "rad/s")) for name, v, w in changed if name not in followed]
+    lines += [f"The velocity of {name} was changed by {amount} to fit the joints" for name, amount in speeds]
     if followed:
         lines.append(f"Start: {set_in_motion(followed)}")
     return lines if len(lines) <= SHOWN_CHANGES else [*lines[:SHOWN_CHANGES], f"and {len(lines) - SHOWN_CHANGES} more"]
@@ -231,20 +219,9 @@ def _amount(value: float, unit: str) -> str:
     return f"{value:.3g}\u00a0{unit}".replace("e-", "e\u2011")
 
 
-def _statement(item: Item) -> str:
-    text = _breaking(item.text.split(": ", maxsplit=1)[-1])
-    return text[:1].upper() + text[1:]
-
-
 def _breaking(text: str) -> str:
     """A text whose lines do not break within 1e-4, nor before a unit."""
     return re.sub(r"(?<=\d) (?=(m|s|J|m/s|1/s)\b)", "\u00a0", text.replace("e-", "e\u2011"))
-
-
-def _gauge(item: Item) -> Gauge | None:
-    if item.fraction is None or item.green is None or item.amber is None:
-        return None
-    return Gauge(_percent(item.fraction), _percent(item.green), _percent(item.amber))
 
 
 def _percent(fraction: float) -> float:
@@ -266,10 +243,9 @@ def _seconds(value: float) -> str:
     """A time in the unit that suits it."""
     if value == 0.0 or abs(value) >= 1.0:
         return f"{value:.6g} s"
-    for factor, unit in ((1e3, "ms"), (1e6, "µs")):
-        if abs(value) * factor >= 1.0:
-            return f"{value * factor:.4g} {unit}"
-    return f"{value * 1e9:.4g} ns"
+    units = ((1e3, "ms"), (1e6, "µs"), (1e9, "ns"))
+    factor, unit = next((each for each in units if abs(value) * each[0] >= 1.0), units[-1])
+    return f"{value * factor:.4g} {unit}"
 
 
 def _took(seconds: float) -> str:

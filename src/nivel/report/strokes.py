@@ -209,7 +209,5 @@ def joint_sign(kind: str, x: float, y: float, axis: tuple[float, float] = (0.0, 
 
 def joint_icon(kind: str) -> Markup:
     """The sign of a joint by itself, for tables."""
-    sign = joint_sign(kind, 18.0, 10.0, drawn(kind).looks.icon)
-    return Markup(
-        f'<svg class="machine icon" viewBox="0 0 36 20" width="36" height="20" aria-hidden="true">{sign}</svg>'
-    )
+    sign, size = joint_sign(kind, 18.0, 10.0, drawn(kind).looks.icon), 'viewBox="0 0 36 20" width="36" height="20"'
+    return Markup(f'<svg class="machine icon" {size} aria-hidden="true">{sign}</svg>')

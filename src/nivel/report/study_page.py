@@ -20,16 +20,8 @@ from nivel.lazy import xarray
 from nivel.machine.core.vectors import Array
 from nivel.report.page import page, text_of
 from nivel.report.story import trusted
-from nivel.results.study_statistics import (
-    Share,
-    Surface,
-    Table,
-    capability,
-    effects,
-    share_within,
-    sobol_indices,
-    surface,
-)
+from nivel.results import study_statistics as statistics
+from nivel.results.study_statistics import Surface, Table, share_within
 from nivel.results.trust import Trust
 
 MOST_LINES: Final = 2000  # variants that are drawn
@@ -100,17 +92,12 @@ def _yield(table: Table) -> tuple[str, str] | None:
     """The share of variants within all limits, and what is said of it; None without limits."""
     if not table.limited:
         return None
-    share = share_within(table)
-    said = f"{share.count} of {share.of} variants are within all limits; {_between(share)}."
-    lost = int(np.sum(~table.ended))
-    if lost:
-        said += f" {lost} that came to no end count as outside."
-    return f"{100.0 * share.value:.4g} %", said
-
-
-def _between(share: Share) -> str:
+    share, lost = share_within(table), int(np.sum(~table.ended))
     low, high = share.interval
-    return f"with a confidence of 95 % between {100.0 * low:.3g} and {100.0 * high:.3g} %"
+    between = f"with a confidence of 95 % between {100.0 * low:.3g} and {100.0 * high:.3g} %"
+    said = f"{share.count} of {share.of} variants are within all limits; {between}."
+    said += f" {lost} that came to no end count as outside." if lost else ""
+    return f"{100.0 * share.value:.4g} %", said
 
 
 def _figures(table: Table) -> Iterator[Figures]:
@@ -123,7 +110,7 @@ def _figures(table: Table) -> Iterator[Figures]:
         least, most = table.limits[name]
         limits = f"{'' if least is None else f'{least:.5g}'} … {'' if most is None else f'{most:.5g}'}"
         limited = name in table.limited
-        cpk = capability(table, name) if limited else np.nan
+        cpk = statistics.capability(table, name) if limited else np.nan
         yield Figures(
             name,
             table.units[name],
@@ -136,11 +123,7 @@ def _figures(table: Table) -> Iterator[Figures]:
 
 def _reasons(table: Table) -> list[tuple[int, str, str]]:
     """Variants that came to no end."""
-    return [
-        (k, outcome, reason)
-        for k, (outcome, reason, ended) in enumerate(zip(table.outcome, table.reason, table.ended, strict=True))
-        if not ended
-    ]
+    return [(int(k), table.outcome[k], table.reason[k]) for k in np.flatnonzero(~table.ended)]
 
 
 def _data(table: Table) -> dict[str, Any]:
@@ -148,17 +131,15 @@ def _data(table: Table) -> dict[str, Any]:
     some = np.flatnonzero(table.ended)
     if len(some) > MOST_LINES:
         some = some[np.linspace(0, len(some) - 1, MOST_LINES).astype(int)]
-    accepted = table.accepted
-    axes = [_axis(table, name, each, some) for name, each in table.parameters.items()]
     outputs = [
         {**_axis(table, name, each, some), **_findings(table, name), "limits": table.limits[name]}
         for name, each in table.outputs.items()
     ]
     return {
-        "parameters": axes,
+        "parameters": [_axis(table, name, each, some) for name, each in table.parameters.items()],
         "outputs": outputs,
-        "accepted": [bool(accepted[k]) for k in some],
-        "variants": [int(k) for k in some],
+        "accepted": table.accepted[some].tolist(),
+        "variants": some.tolist(),
         "limited": bool(table.limited),
         "shown": len(some),
         "count": int(table.ended.sum()),
@@ -175,10 +156,9 @@ def _axis(table: Table, name: str, values: NDArray[np.float64], some: NDArray[np
 
 
 def _findings(table: Table, name: str) -> dict[str, Any]:
-    found = surface(table, name)
-    shares = sobol_indices(table, name)
+    found, shares = statistics.surface(table, name), statistics.sobol_indices(table, name)
     out: dict[str, Any] = {"surface": None if found is None else _surface(table, found)}
-    out["effects"] = [asdict(each) for each in effects(table, name, found)]
+    out["effects"] = [asdict(each) for each in statistics.effects(table, name, found)]
     if shares is not None:
         out["sobol"] = _plain(shares)
     return out
@@ -287,14 +267,11 @@ def _drawing(best: Array, name: str) -> str:
     right, bottom = WIDTH - 14, HEIGHT - BELOW
     x = LEFT + (known + 1) / max(len(best), 1) * (right - LEFT)
     y = bottom - (heights - least) / (most - least) * (bottom - ABOVE)
-    path = f"M{x[0]:.1f} {y[0]:.1f}" + "".join(
-        f"H{x[k]:.1f}V{y[k]:.1f}" for k in range(1, len(x)) if y[k] != y[k - 1] or k == len(x) - 1
-    )
-    marks = [(bottom, least), (ABOVE, most)]
-    labels = "".join(
-        f'<text x="{LEFT - 6}" y="{at + 4:.1f}" text-anchor="end">{10.0**value if logarithmic else value:.4g}</text>'
-        for at, value in marks
-    )
+    corners = [k for k in range(1, len(x)) if y[k] != y[k - 1] or k == len(x) - 1]
+    path = f"M{x[0]:.1f} {y[0]:.1f}" + "".join(f"H{x[k]:.1f}V{y[k]:.1f}" for k in corners)
+    ends = [(at, 10.0**value if logarithmic else value) for at, value in ((bottom, least), (ABOVE, most))]
+    anchor = 'text-anchor="end"'
+    labels = "".join(f'<text x="{LEFT - 6}" y="{at + 4:.1f}" {anchor}>{value:.4g}</text>' for at, value in ends)
     frame = f'<path class="axis" d="M{LEFT} {ABOVE}V{bottom}H{right}"/>'
     runs = f'<text x="{right}" y="{bottom + 16}" text-anchor="end">{len(best)} runs</text><text x="{LEFT}" y="{bottom + 16}">1</text>'
     line = f'<path d="{path}" fill="none" stroke="var(--accent)" stroke-width="2"/>'

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from nivel.judge.after import subject
-from nivel.judge.after.report import every_check
+from nivel.judge.after.report import every_check, titles
 
 PAGE = Path(__file__).parents[1] / "docs" / "trust.md"
 BEGIN, END = "<!-- what each line examines -->\n", "<!-- to here from packaging/write_trust_table.py -->\n"
@@ -133,7 +133,8 @@ def written(page: str) -> str:
 def _row(names: tuple[str, ...], examines: str) -> tuple[str, ...]:
     """The row of checks with these names."""
     its = sorted((check for check in every_check() if check.name in names), key=lambda check: names.index(check.name))
-    titles = list(dict.fromkeys(each.title for each in its if each.title)) or [its[0].line.capitalize()]
+    said = titles()
+    headed = dict.fromkeys(said[line] for each in its if (line := each.line or each.name) in said)
     of = [word for kind, word in ANALYSES.items() if any(issubclass(kind, each.of) for each in its)]
     needs = [
         need.words
@@ -142,7 +143,13 @@ def _row(names: tuple[str, ...], examines: str) -> tuple[str, ...]:
     ]
     green = list(dict.fromkeys(f"{each.threshold.green:g}" for each in its if each.threshold is not None))
     every = "all" if len(of) == len(ANALYSES) else ", ".join(of)
-    return ", ".join(titles), every, ", ".join(dict.fromkeys(needs)), examines.replace("|", "\\|"), ", ".join(green)
+    return (
+        ", ".join(headed or [its[0].line.capitalize()]),
+        every,
+        ", ".join(dict.fromkeys(needs)),
+        examines.replace("|", "\\|"),
+        ", ".join(green),
+    )
 
 
 if __name__ == "__main__":

@@ -186,7 +186,6 @@ import nivel.report.study_page
 import nivel.results
 import nivel.results.analyses
 import nivel.results.analyses.linear_model
-import nivel.results.analyses.linear_motion
 import nivel.results.analyses.linear_sweep
 import nivel.results.analyses.mechanism
 import nivel.results.analyses.mode_motion

@@ -120,7 +120,7 @@ class Kinds(Mapping[str, KindT], Generic[KindT]):
 
     def record_named(self, name: str) -> Any:
         """The record whose class has this name: an attribute of its room. Raises AttributeError with all names."""
-        if name.startswith("_"):
+        if not name[0].isupper():  # a module of the room, which the import finds by itself
             raise AttributeError(name)
         for module, file in self._files.items():
             if f"class {name}(" in file.read_text("utf-8"):

@@ -33,8 +33,13 @@ def page(
     template: str, styles: tuple[str, ...], filters: Mapping[str, Callable[..., str]] | None = None, **values: Any
 ) -> str:
     """The page of a template with its `values`, the style of all pages and further `styles`; `filters` are those of Jinja."""
-    form = {"autoescape": True, "trim_blocks": True, "lstrip_blocks": True}
-    environment = Environment(loader=FileSystemLoader(HERE), bytecode_cache=_Kept(str(folder())), **form)
+    environment = Environment(
+        loader=FileSystemLoader(HERE),
+        bytecode_cache=_Kept(str(folder())),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
     environment.filters.update(filters or {})
     looks = {"page_style": text_of("page.css"), "style": "".join(map(text_of, styles))}
     return environment.get_template(template).render(version=__version__, **looks, **values)

@@ -127,13 +127,7 @@ def analysis_command(keys: Any, name: str) -> Callable[[Callable[..., None]], cl
             asked = {each: given.pop(each) for each in Order.__dataclass_fields__ if each != "settings"}
             function(Order(settings=settings, **asked), **given)
 
-        out = click.option(
-            "-o",
-            "--out",
-            metavar="FILE.nc",
-            type=click.Path(),
-            help=f"Result file; default: {name} in the working directory.",
-        )
+        out = out_option("Result file", name, kind=click.Path())
         shared = (override_option, allow_code_option, out, force_option, no_report_option, quiet_option, json_option)
         for option in reversed(shared):
             option(command)
@@ -178,13 +172,9 @@ def study_command(count: str, meaning: str, *own: Any) -> Callable[[Callable[...
             function(StudyOrder(**asked), **given)
 
         number = click.option(count, type=click.IntRange(1), metavar="NUMBER", help=meaning)
-        files = (
-            set_option("study", "samples=256", " or verify=true"),
-            allow_code_option,
-            out_option("Data file", "NAME.nc"),
-        )
+        set_study, out = set_option("study", "samples=256", " or verify=true"), out_option("Data file", "NAME.nc")
         shared = (resume_option, force_option, no_report_option, quiet_option, json_option)
-        for option in reversed((file_argument("study"), *files, number, *own, *shared)):
+        for option in reversed((file_argument("study"), set_study, allow_code_option, out, number, *own, *shared)):
             option(command)
         command.__doc__ = function.__doc__
         return click.command()(command)

@@ -23,12 +23,11 @@ if TYPE_CHECKING:
 @options.allow_code_option
 @options.setting_options(StepSettingsDict, "step", "formulation", "coordinates", "stabilisation")
 @options.tick_option
-@click.option(
+@options.listed(
     "--integrators",
-    metavar="NAMES",
-    multiple=True,
-    callback=options.separated,
-    help="Methods to compare; default: that of the file and all that need no compilation.",
+    "integrators",
+    "NAMES",
+    "Methods to compare; default: that of the file and all that need no compilation.",
 )
 @options.quiet_option
 def command(

@@ -7,7 +7,7 @@ import json
 
 import click
 
-from nivel.cli.options import allow_code_option, file_argument, json_option, override_option, separated
+from nivel.cli.options import allow_code_option, file_argument, json_option, listed, override_option
 from nivel.errors import SolveError
 from nivel.lazy import nivel
 
@@ -23,9 +23,7 @@ from nivel.lazy import nivel
     metavar="MARKER",
     help="Also print mass, centre of mass and inertia about a marker, a body's frame or ground.",
 )
-@click.option(
-    "--of", metavar="BODIES", multiple=True, callback=separated, help="Bodies that --mass includes; default: all."
-)
+@listed("--of", "of", "BODIES", "Bodies that --mass includes; default: all.")
 @json_option
 def command(
     machine: str,

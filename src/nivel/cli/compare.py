@@ -16,7 +16,6 @@ from nivel.lazy import nivel, rich
 from nivel.settings import CompareSettingsDict
 
 if TYPE_CHECKING:
-    from nivel.errors import ModelError
     from nivel.results.comparison import Comparison
 
 FORMATS: Final = (".csv", ".json")
@@ -40,7 +39,7 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
     "-o",
     "--out",
     multiple=True,
-    type=click.Path(dir_okay=False, path_type=Path),
+    type=options.FILE,
     help="Table, .csv or .json. May be repeated; default: NAME-compare.csv and .json in the working directory.",
 )
 @options.report_option("table")
@@ -77,7 +76,9 @@ def command(
         raise ModelError(f"--no-report and --report {report} contradict each other: take one of them away")
     loaded = nivel.api.load(machine, overrides, allow_code=allow_code)
     tables = out or tuple(Path(f"{loaded.name}-compare{suffix}") for suffix in FORMATS)
-    _refuse_other_kinds(tables)
+    if others := [path for path in tables if path.suffix not in FORMATS]:
+        message = "a table ends with .csv or .json; the page is named with --report"
+        raise ModelError(Fault.at("", f"{path}: {message}") for path in others)
     page = None if no_report else report or tables[0].with_suffix(".html")
     _refuse_to_replace(tables, page, force or resume, Path(machine))
     if resume and is_complete(tables[0], None, quiet):
@@ -103,14 +104,6 @@ def command(
     if not comparison.completed:
         failed = any(row.outcome == "failed" for row in comparison.rows)
         raise SystemExit(COMPUTATION_FAILED if failed else INPUT_AT_FAULT)
-
-
-def _refuse_other_kinds(tables: tuple[Path, ...]) -> None:
-    """Refuse tables of kinds that are not known."""
-    others = [path for path in tables if path.suffix not in FORMATS]
-    if others:
-        message = "a table ends with .csv or .json; the page is named with --report"
-        raise ModelError(Fault.at("", f"{path}: {message}") for path in others)
 
 
 def _refuse_to_replace(tables: tuple[Path, ...], page: Path | None, force: bool, machine: Path) -> None:

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 import click
 
 from nivel.cli.options import file_argument, json_option
+from nivel.cli.progress import COLOURS
 from nivel.lazy import nivel, rich
 
 if TYPE_CHECKING:
     from nivel.results import Result
 
-COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 SIGNS = {"green": "✓", "amber": "!", "red": "✕"}
 
 
@@ -32,30 +32,24 @@ def command(result: str, as_json: bool) -> None:
 
 
 def _print(result: Result) -> None:
-    console, trust = rich.console.Console(highlight=False), result.trust
-    time = result.time
+    console, text = rich.console.Console(highlight=False), rich.text.Text
+    trust, time = result.trust, result.time
     frames = f"{len(time)} frame{'s' * (len(time) != 1)}"
     extent = f"{time[0]:.6g} to {time[-1]:.6g} s, {frames}" if len(time) > 1 else frames
-    console.print(rich.text.Text.assemble((result.name, "bold"), f": {extent}"))
+    console.print(text.assemble((result.name, "bold"), f": {extent}"))
     light = (trust.light, f"bold {COLOURS[trust.light]}") if trust.light in COLOURS else ""
-    console.print(rich.text.Text.assemble("trust: ", light, f"{', ' if light else ''}{trust.headline}", "\n"))
+    console.print(text.assemble("trust: ", light, f"{', ' if light else ''}{trust.headline}", "\n"))
     lines = rich.table.Table.grid(padding=(0, 1))
     for item in trust.items:
-        lines.add_row(
-            rich.text.Text(f"{SIGNS[item.verdict]} {item.verdict}", COLOURS[item.verdict]), rich.text.Text(item.text)
-        )
+        lines.add_row(text(f"{SIGNS[item.verdict]} {item.verdict}", COLOURS[item.verdict]), text(item.text))
     console.print(lines)
     if result.advice:
-        console.print(rich.text.Text(f"\n{result.advice}"))
+        console.print(text(f"\n{result.advice}"))
     reasons = rich.table.Table.grid(padding=(0, 2))
     for name, threshold in nivel.judge.after.report.thresholds_of(result).items():
-        reasons.add_row(
-            rich.text.Text(f"{name.replace('_', ' ')}\n{threshold}", "dim"), rich.text.Text(threshold.reason, "dim")
-        )
+        reasons.add_row(text(f"{name.replace('_', ' ')}\n{threshold}", "dim"), text(threshold.reason, "dim"))
     for name, rule in nivel.results.scales.RULES.items():
-        reasons.add_row(
-            rich.text.Text(name.replace("_", " "), "dim"), rich.text.Text(f"{rule[:1].upper()}{rule[1:]}.", "dim")
-        )
+        reasons.add_row(text(name.replace("_", " "), "dim"), text(f"{rule[:1].upper()}{rule[1:]}.", "dim"))
     reasons.columns[0].max_width = 24
-    console.print(rich.text.Text("\nwhy these thresholds", "dim bold"))
+    console.print(text("\nwhy these thresholds", "dim bold"))
     console.print(reasons)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from nivel.cli.options import file_argument, force_option, override_option
+from nivel.cli.options import file_argument, force_option, override_option, repeated
 from nivel.lazy import nivel
 
 if TYPE_CHECKING:
@@ -28,12 +28,12 @@ def file_option(name: str, text: str) -> Any:
 @click.command()
 @file_argument("source")
 @file_option("csv", "a table, one row per frame; default: NAME.csv in the working directory. '-' is standard output.")
-@click.option(
+@repeated(
     "--select",
-    multiple=True,
-    metavar="NAMES",
-    help="Write only these columns, or outputs of a machine, separated by commas: hinge.angle, crank.position, crank, '*.force'; '*' is "
-    "everything. May be repeated.",
+    "select",
+    "NAMES",
+    "Write only these columns, or outputs of a machine, separated by commas: hinge.angle, crank.position, crank, '*.force'; '*' is "
+    "everything.",
 )
 @force_option
 @click.option("--c", "folder", metavar="FOLDER", help="Write a C library of the machine SOURCE into a new folder.")
@@ -44,12 +44,11 @@ def file_option(name: str, text: str) -> Any:
     "directory.",
 )
 @click.option("--fmi", type=click.Choice(["3", "2"]), help="Version of FMI; default 3.")
-@click.option(
+@repeated(
     "--parameter",
     "parameters",
-    multiple=True,
-    metavar="PATH",
-    help="A number of the machine that can be set in the FMU or page, e.g. bodies.crank.mass. May be repeated.",
+    "PATH",
+    "A number of the machine that can be set in the FMU or page, e.g. bodies.crank.mass.",
 )
 @click.option(
     "--platform",
@@ -138,10 +137,7 @@ def command(
 def _write_c_library(machine: Machine, folder: str, select: list[str], platform: str) -> None:
     written = machine.export_c(folder, select=select, platform=platform)
     sizes = f"{len(written.inputs)} inputs, {len(written.outputs)} outputs, {written.size / 1000:.0f} kB a machine"
-    click.echo(
-        f"C library: {written.folder}/{written.name}.h, {sizes}; `make -C {written.folder}` builds it",
-        err=True,
-    )
+    click.echo(f"C library: {written.folder}/{written.name}.h, {sizes}; `make -C {written.folder}` builds it", err=True)
     click.echo(
         "not verified: the library makes single runs; `nivel run` with the same step estimates their error", err=True
     )

@@ -7,7 +7,7 @@ from typing import Literal
 
 import click
 
-from nivel.cli.options import file_argument, force_option, quiet_option
+from nivel.cli.options import file_argument, force_option, quiet_option, repeated
 from nivel.lazy import nivel
 
 
@@ -21,21 +21,19 @@ from nivel.lazy import nivel
     type=click.Choice(["fixed", "free"]),
     help="Whether the first link is fixed to the ground; default: fixed for URDF, else as the model says.",
 )
-@click.option(
+@repeated(
     "--package-path",
     "package_paths",
-    multiple=True,
+    "FOLDER",
+    "Folder of packages, in which meshes at package:// are searched for.",
     type=click.Path(path_type=Path),
-    metavar="FOLDER",
-    help="Folder of packages, in which meshes at package:// are searched for. May be repeated.",
 )
-@click.option(
+@repeated(
     "--include-path",
     "include_paths",
-    multiple=True,
+    "FOLDER",
+    "Folder beside that of an MJCF model from which included files and meshes are read.",
     type=click.Path(path_type=Path),
-    metavar="FOLDER",
-    help="Folder beside that of an MJCF model from which included files and meshes are read. May be repeated.",
 )
 @click.option(
     "--contacts",

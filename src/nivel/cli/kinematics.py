@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.analysis_command import Order, analysis_command
-from nivel.cli.progress import computed_in, console, ended, progress_listener, said_in_colour, say_checks, say_files
+from nivel.cli.options import repeated
+from nivel.cli.progress import computed_in, console, ended, progress_listener, say_trust_and_files
 from nivel.cli.run import assembly_lines
 from nivel.errors import Fault, ModelError
 from nivel.lazy import dataclass, nivel
@@ -30,18 +31,13 @@ if TYPE_CHECKING:
     is_flag=True,
     help="Follow all positions, also past turning points of the coordinate of --drive; writes NAME-way.nc.",
 )
-@click.option(
+@repeated(
     "--transmission",
-    metavar="JOINTS",
-    multiple=True,
-    help="Transmission angle at the second of three joints, e.g. pin,rocker_pin,pivot. May be repeated.",
+    "transmission",
+    "JOINTS",
+    "Transmission angle at the second of three joints, e.g. pin,rocker_pin,pivot.",
 )
-@click.option(
-    "--curve",
-    metavar="POINT",
-    multiple=True,
-    help="Path of a marker, or of a point BODY:X,Y,Z in the frame of its body. May be repeated.",
-)
+@repeated("--curve", "curve", "POINT", "Path of a marker, or of a point BODY:X,Y,Z in the frame of its body.")
 def command(order: Order, ranged: bool, through: bool, transmission: tuple[str, ...], curve: tuple[str, ...]) -> None:
     """Move MACHINE by its drivers, or by driving one joint coordinate, without integration over time.
 
@@ -58,13 +54,11 @@ def command(order: Order, ranged: bool, through: bool, transmission: tuple[str, 
     elif through:
         _follow(order, machine)
     else:
-        name = f"{machine.name}-kinematics.nc"
-        order.run(
-            name,
-            machine.kinematics,
-            _say,
-            lambda result: Studied(result, nivel.results.analyses.mechanism.add_studies(result, angles, points)),
-        )
+
+        def studied(result: Result) -> Studied:
+            return Studied(result, nivel.results.analyses.mechanism.add_studies(result, angles, points))
+
+        order.run(f"{machine.name}-kinematics.nc", machine.kinematics, _say, studied)
 
 
 @dataclass(frozen=True)
@@ -120,8 +114,6 @@ def _say(studied: Studied, target: Path, report: Path | None) -> None:
     out.print(f"{ended(result)}, {len(time)} positions {computed_in(timing.get('loop_seconds', 0.0))}")
     for line in assembly_lines(result):
         out.print(line)
-    out.print(f"trust: {said_in_colour(result.trust)}", soft_wrap=True)
-    say_checks(out, result.trust)
-    say_files(out, target, report)
+    say_trust_and_files(out, result.trust, target, report)
     for line in studied.studies.lines() if studied.studies is not None else ():
         click.echo(line, err=True)

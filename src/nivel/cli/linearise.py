@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.analysis_command import Order, analysis_command
-from nivel.cli.options import separated
+from nivel.cli.options import listed
 from nivel.errors import Fault, ModelError
 from nivel.lazy import nivel, replace
 from nivel.settings import LineariseSettingsDict
@@ -29,13 +29,7 @@ MOST = 1000  # values of a parameter
     metavar="PATH=FROM:TO:COUNT UNIT",
     help="Eigenvalues as functions of a number in the file, e.g. parameters.rope='1:8:15 m'.",
 )
-@click.option(
-    "--orders",
-    metavar="NUMBERS",
-    multiple=True,
-    callback=separated,
-    help="Campbell diagram: multiples of the rotational speed that --over varies.",
-)
+@listed("--orders", "orders", "NUMBERS", "Campbell diagram: multiples of the rotational speed that --over varies.")
 @click.option(
     "--verify", "with_others", is_flag=True, help="With --over: also vibrations with other elements of beams."
 )
@@ -70,7 +64,7 @@ def command(
     """
     if over is not None:
         if tune:
-            raise ModelError(Fault("", 0, 0, "linearise.tune", "is of one model, and --over makes many"))
+            raise ModelError(Fault.at("linearise.tune", "is of one model, and --over makes many"))
         if psd:
             raise ModelError(Fault.at("linearise.psd", "is of one model, and --over makes many"))
         if with_others and "verify" in order.settings:
@@ -114,7 +108,7 @@ def _tuned(record: MachineRecord, model: LinearModel, asked: str) -> str:
         phase, gain = map(float, (margins or "60,2").split(","))
     except ValueError:
         said = f"`{asked}` is not of the form BLOCK=PHASE,GAIN, e.g. position=60,2: degrees, and a factor"
-        raise ModelError(Fault("", 0, 0, "linearise.tune", said)) from None
+        raise ModelError(Fault.at("linearise.tune", said)) from None
     return nivel.analysis.linearise.tuning.tuned(record, model.sampled, name.strip(), phase, gain).words
 
 
@@ -166,24 +160,19 @@ def read_orders(words: tuple[str, ...] | None) -> list[float]:
         raise ModelError(Fault.at("linearise.orders", f"numbers were expected, got {', '.join(words or ())}")) from None
 
 
-def _of_random(model: LinearModel) -> list[str]:
-    """Root mean squares of the outputs."""
-    if model.random is None:
-        return []
-    rows = zip(model.outputs, model.random.rms.values, model.output_units, strict=True)
-    return [f"rms of {name}: {value:.6g} {units}" for name, value, units in rows]
-
-
 def _said(model: LinearModel) -> list[str]:
     judged = ("stable" if model.stable else "unstable") if model.steady else "not judged"
     modes = model.modes if model.steady else ()
     poles = model.sampled.modes if model.sampled is not None else ()
+    rms = (
+        zip(model.outputs, model.random.rms.values, model.output_units, strict=True) if model.random is not None else ()
+    )
     return [
         f"{model.name}: linear about {model.about}, {len(model.states)} states, {judged}",
         *model.notes,
         *(f"mode {mode.number}: {nivel.results.analyses.linear_model.mode_in_words(mode)}" for mode in modes[:SHOWN]),
         *([f"and {len(modes) - SHOWN} more in the data"] if len(modes) > SHOWN else []),
-        *_of_random(model),
+        *(f"rms of {name}: {value:.6g} {units}" for name, value, units in rms),
         *(model.sampled.words if model.sampled is not None else ()),
         *(f"pole {pole.number}: {pole.words}" for pole in poles[:SHOWN]),
         f"trust: {model.trust.told}",

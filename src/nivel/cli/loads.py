@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from nivel.cli.options import file_argument, json_option, separated
+from nivel.cli.options import file_argument, json_option, listed
 from nivel.errors import Fault, ModelError
 from nivel.lazy import nivel, rich, xarray
 
@@ -17,14 +17,7 @@ if TYPE_CHECKING:
 
 @click.command()
 @file_argument("result")
-@click.option(
-    "--cycles",
-    "signals",
-    metavar="NAMES",
-    multiple=True,
-    callback=separated,
-    help="Count rainflow cycles of signals, e.g. pin.force.x.",
-)
+@listed("--cycles", "signals", "NAMES", "Count rainflow cycles of signals, e.g. pin.force.x.")
 @click.option("--repeating", is_flag=True, help="The history is periodic: count no half cycles.")
 @click.option(
     "--period",

@@ -36,12 +36,9 @@ def command(name: Path, force: bool, with_schema: bool) -> None:
         text = f"# yaml-language-server: $schema={SCHEMA_NAME}\n{text}"
     _write(target, text, force)
     if with_schema:
-        _write(target.with_name(SCHEMA_NAME), json.dumps(nivel.files.schema(), indent=1) + "\n", force=True)
-        _write(
-            target.with_name(STUDY_SCHEMA_NAME),
-            json.dumps(nivel.files.study_file.study_schema(), indent=1) + "\n",
-            force=True,
-        )
+        schemas = {SCHEMA_NAME: nivel.files.schema(), STUDY_SCHEMA_NAME: nivel.files.study_file.study_schema()}
+        for schema, content in schemas.items():
+            _write(target.with_name(schema), json.dumps(content, indent=1) + "\n", force=True)
     click.echo(f"{target} is written; run it with: nivel run {target}", err=True)
 
 

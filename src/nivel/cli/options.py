@@ -9,6 +9,8 @@ from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import click
 
+FILE = click.Path(dir_okay=False, path_type=Path)
+
 
 def file_argument(name: str) -> Any:
     """A machine or result file; whether it exists is found out by its reader, which knows what to say."""
@@ -83,16 +85,16 @@ tick_option = click.option(
 resume_option = click.option("--resume", is_flag=True, help="Go on with an interrupted study.")
 
 
-def out_option(what: str, name: str, form: str | None = "FILE.nc", **more: Any) -> Any:
+def out_option(what: str, name: str, form: str | None = "FILE.nc", kind: click.Path = FILE, **more: Any) -> Any:
     """The file of what is computed, `name` by default."""
     text = f"{what}; default: {name} in the working directory."
-    return click.option("-o", "--out", metavar=form, type=click.Path(dir_okay=False, path_type=Path), help=text, **more)
+    return click.option("-o", "--out", metavar=form, type=kind, help=text, **more)
 
 
 def report_option(of: str) -> Any:
     """The page of what is computed, beside the file that it is `of`."""
     text = f"HTML page; default: the name of the {of} with .html."
-    return click.option("--report", type=click.Path(dir_okay=False, path_type=Path), help=text)
+    return click.option("--report", type=FILE, help=text)
 
 
 def separated(_context: click.Context, _parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...] | None:
@@ -101,6 +103,16 @@ def separated(_context: click.Context, _parameter: click.Parameter, values: tupl
     Words that are empty are kept: their reader refuses them.
     """
     return tuple(word.strip() for text in values for word in text.split(",")) if values else None
+
+
+def listed(option: str, name: str, metavar: str, meaning: str) -> Any:
+    """An option of several words, `separated`."""
+    return click.option(option, name, metavar=metavar, multiple=True, callback=separated, help=meaning)
+
+
+def repeated(option: str, name: str, metavar: str, meaning: str, **more: Any) -> Any:
+    """An option that may be given several times."""
+    return click.option(option, name, metavar=metavar, multiple=True, help=f"{meaning} May be repeated.", **more)
 
 
 class SettingOption(click.Option):

@@ -98,14 +98,14 @@ def computed_in(time: float, steps: int = 0) -> str:
     return f"computed in {seconds(time)}" + (f" ({seconds(time / steps)} per step)" if steps else "")
 
 
-def said_in_colour(trust: Trust) -> str:
-    """The light and the headline; of what was not verified no green one."""
-    coloured = f"[{COLOURS[trust.light]}]{trust.light}[/], " if trust.light in COLOURS else ""
-    return f"{coloured}{trust.headline}"
+def in_colour(light: str) -> str:
+    """`red, ` before a headline; nothing where there is no light: of what was not verified no green one."""
+    return f"[{COLOURS[light]}]{light}[/], " if light in COLOURS else ""
 
 
-def say_checks(out: Console, trust: Trust) -> None:
-    """The checks that are not green, in full, and how many passed."""
+def say_trust_and_files(out: Console, trust: Trust, target: Path, report: Path | None) -> None:
+    """The light and the headline, the checks that are not green, in full, how many passed, and names of the files that were written."""
+    out.print(f"trust: {in_colour(trust.light)}{trust.headline}", soft_wrap=True)
     checks = [item for item in trust.items if item.name != "outcome" or item.verdict != "green"]
     open_ones = [item for item in checks if item.verdict != "green"]
     for item in open_ones:
@@ -115,8 +115,4 @@ def say_checks(out: Console, trust: Trust) -> None:
         out.print(f"All {passed} numerical checks passed; `nivel explain` shows them.")
     elif passed:
         out.print(f"  The other {passed} checks passed; `nivel explain` shows them.", soft_wrap=True)
-
-
-def say_files(out: Console, target: Path, report: Path | None) -> None:
-    """Names of the result file and of the report, if one was written."""
     out.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)

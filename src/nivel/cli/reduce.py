@@ -26,11 +26,7 @@ SHOWN = 15  # modes in the table of the terminal
 @options.out_option("Body file", "NAME.nc", None)
 @options.report_option("body file")
 @options.no_report_option
-@click.option(
-    "--vtk",
-    type=click.Path(dir_okay=False, path_type=Path),
-    help="Also write the modes for ParaView: a .pvd file and its .vtu files.",
-)
+@click.option("--vtk", type=options.FILE, help="Also write the modes for ParaView: a .pvd file and its .vtu files.")
 @options.force_option
 @options.quiet_option
 @options.json_option

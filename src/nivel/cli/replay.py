@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.failures import COMPUTATION_FAILED
-from nivel.cli.options import allow_code_option, file_argument, force_option, quiet_option, setting_options
+from nivel.cli.options import allow_code_option, file_argument, force_option, out_option, quiet_option, setting_options
 from nivel.cli.progress import progress_listener
 from nivel.errors import ModelError
 from nivel.lazy import nivel
@@ -25,19 +25,14 @@ if TYPE_CHECKING:
 @click.option(
     "--take", type=click.IntRange(1), help="Number of the take in the recording, from 1; default: the longest take."
 )
-@click.option(
-    "-o",
-    "--out",
-    type=click.Path(dir_okay=False),
-    help="Result file; default: NAME.replay.nc in the working directory.",
-)
+@out_option("Result file", "NAME.replay.nc", None)
 @force_option
 @allow_code_option
 @quiet_option
 def command(
     recording: str,
     take: int | None,
-    out: str | None,
+    out: Path | None,
     force: bool,
     allow_code: bool,
     quiet: bool,
@@ -62,7 +57,7 @@ def command(
             f"{recording} has {len(stored.takes)} take{'s'[: len(stored.takes) != 1]}; there is no take {take}"
         )
     chosen = max(stored.takes, key=lambda each: each.ticks) if take is None else stored.takes[take - 1]
-    target = Path(out) if out is not None else Path(f"{stored.machine.name}.replay.nc")
+    target = out or Path(f"{stored.machine.name}.replay.nc")
     nivel.files.target.check_target(target, "result file", force=force, sources=[Path(recording)])
     say = (lambda text: None) if quiet else (lambda text: click.echo(text, err=True))
     length = f"{chosen.ticks} ticks, {chosen.ticks * stored.pace.tick:.6g} s"

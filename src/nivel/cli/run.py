@@ -13,7 +13,7 @@ import click
 
 from nivel.cli.analysis_command import Order, analysis_command
 from nivel.cli.options import input_option
-from nivel.cli.progress import computed_in, console, ended, said_in_colour, say_checks, say_files
+from nivel.cli.progress import computed_in, console, ended, say_trust_and_files
 from nivel.lazy import nivel
 from nivel.settings import RunSettingsDict
 from nivel.words.wording import set_in_motion
@@ -51,7 +51,6 @@ def command(order: Order, inputs: dict[str, str], no_verify: bool, verify_limit:
 
 def _say(result: Result, target: Path, report: Path | None, notes: Sequence[str]) -> None:
     out = console()
-    trust = result.trust
     timing = result.timing
     done = ended(result)
     if timing:  # not where the run was broken off
@@ -67,9 +66,7 @@ def _say(result: Result, target: Path, report: Path | None, notes: Sequence[str]
         out.print(line)
     for line in nivel.results.frames.summary.in_words(result.events, result.stopped_by):
         out.print(f"event: {line}", markup=False)
-    out.print(f"trust: {said_in_colour(trust)}", soft_wrap=True)
-    say_checks(out, trust)
-    say_files(out, target, report)
+    say_trust_and_files(out, result.trust, target, report)
 
 
 def assembly_lines(result: Result) -> Iterator[str]:
@@ -82,12 +79,8 @@ def assembly_lines(result: Result) -> Iterator[str]:
         why = f"to close {assembly['gap_row']}, open by {assembly['gap']:.3g} as given"
     else:
         why = "to reach the start values of joints"
-    yield from _changes(
-        "moved",
-        [(name, _amounts((d, "m"), (math.degrees(a), "deg"))) for name, d, a in _largest(moved)],
-        len(moved),
-        why,
-    )
+    amounts = [(name, _amounts((d, "m"), (math.degrees(a), "deg"))) for name, d, a in _largest(moved)]
+    yield from _changes("moved", amounts, len(moved), why)
     followed = assembly.get("followed", [])
     changed = [each for each in changed if each[0] not in followed]
     amounts = [(name, _amounts((v, "m/s"), (w, "rad/s"))) for name, v, w in _largest(changed)]

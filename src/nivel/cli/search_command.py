@@ -135,7 +135,9 @@ def _facts_of_fit(found: Identified) -> dict[str, Any]:
 
 
 def _say_fit(found: Identified) -> None:
-    rows = [(path, f"{value:.6g}", _deviation(found, path)) for path, value in found.values.items()]
+    deviations = {path: f"{each:.2g}" for path, each in found.deviations.items()}
+    deviations |= dict.fromkeys(found.on_bounds, "on its bound")
+    rows = [(path, f"{value:.6g}", deviations[path]) for path, value in found.values.items()]
     numbers_table(("parameter", "value", "standard deviation"), rows)
     for name, deviation in found.deviation_of.items():
         click.echo(f"{name}: what is left has a standard deviation of {deviation:.3g}", err=True)
@@ -146,7 +148,3 @@ def _say_fit(found: Identified) -> None:
         )
     if found.undetermined:
         click.echo(f"the measurements do not tell apart: {', '.join(found.undetermined)}", err=True)
-
-
-def _deviation(found: Identified, path: str) -> str:
-    return "on its bound" if path in found.on_bounds else f"{found.deviations[path]:.2g}"

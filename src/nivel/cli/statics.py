@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from nivel.cli.analysis_command import Order, analysis_command
-from nivel.cli.progress import computed_in, console, ended, said_in_colour, say_checks, say_files
+from nivel.cli.progress import computed_in, console, ended, say_trust_and_files
 from nivel.cli.run import assembly_lines
 from nivel.settings import StaticsSettingsDict
 
@@ -44,9 +44,7 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
         out.print(line, markup=False)
     for each in json.loads(str(result.attributes.get("buckling", "[]"))):
         out.print(f"buckling: at t = {each['time']:.6g} s by extrapolation; most moves: {each['moves']}", markup=False)
-    out.print(f"trust: {said_in_colour(result.trust)}", soft_wrap=True)
-    say_checks(out, result.trust)
-    say_files(out, target, report)
+    say_trust_and_files(out, result.trust, target, report)
 
 
 def rest_lines(result: Result) -> list[str]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from nivel.cli.options import file_argument, force_option, json_option, quiet_option, separated
+from nivel.cli.options import FILE, file_argument, force_option, json_option, listed, quiet_option
 from nivel.cli.progress import console, progress_stage
 from nivel.errors import Fault, ModelError, refuse
 from nivel.lazy import nivel
@@ -17,30 +17,14 @@ from nivel.lazy import nivel
 if TYPE_CHECKING:
     from nivel.results.stress import RecoveredBody
 
-FILE = click.Path(dir_okay=False, path_type=Path)
-
 
 @click.command()
 @file_argument("result")
 @click.option("--body", metavar="NAME", help="Flexible body; needed if there are several.")
 @click.option("--body-file", type=FILE, help="Body file, if it was moved since the run.")
 @click.option("--count", type=click.IntRange(min=1), default=5, show_default=True, help="Number of hot spots.")
-@click.option(
-    "--node",
-    "nodes",
-    metavar="NODES",
-    multiple=True,
-    callback=separated,
-    help="History at these nodes: numbers, or names of interfaces, separated by commas.",
-)
-@click.option(
-    "--at",
-    "times",
-    metavar="TIMES",
-    multiple=True,
-    callback=separated,
-    help="State at the frames nearest to these times, e.g. '0.5 s, 1 s'.",
-)
+@listed("--node", "nodes", "NODES", "History at these nodes: numbers, or names of interfaces, separated by commas.")
+@listed("--at", "times", "TIMES", "State at the frames nearest to these times, e.g. '0.5 s, 1 s'.")
 @click.option("--strain", "strains", is_flag=True, help="Also write strains, with --csv and --node.")
 @click.option(
     "--csv",

@@ -131,8 +131,7 @@ def _say(found: xarray.Dataset, target: Path, page: Path | None, interrupted: bo
         out.print(f"  variant {number}: {outcome}: {why}", markup=False)
     if len(others) > SHOWN:
         out.print(f"  and {len(others) - SHOWN} more that came to no end")
-    verdict = str(found.attrs["verdict"])
-    coloured = f"[{nivel.cli.progress.COLOURS[verdict]}]{verdict}[/], " if verdict in nivel.cli.progress.COLOURS else ""
+    coloured = nivel.cli.progress.in_colour(str(found.attrs["verdict"]))
     out.print(f"trust: {coloured}{found.attrs['headline']}", soft_wrap=True)
     if interrupted:
         say_how_to_go_on(target)
@@ -157,13 +156,10 @@ def _progress(study: Study, quiet: bool) -> Iterator[tuple[Any, Callable[[int, A
                 None,
             )
         return
-    columns = (
-        rich.progress.TextColumn("{task.description}"),
-        rich.progress.BarColumn(),
-        rich.progress.MofNCompleteColumn(),
-        rich.progress.TextColumn("{task.fields[left]}"),
+    text, counted = rich.progress.TextColumn, rich.progress.MofNCompleteColumn()
+    bar = rich.progress.Progress(
+        text("{task.description}"), rich.progress.BarColumn(), counted, text("{task.fields[left]}")
     )
-    bar = rich.progress.Progress(*columns)
     task = bar.add_task("variants", total=count, left="")
     last: deque[tuple[int, Any]] = deque(maxlen=SHOWN)
     with rich.live.Live(bar, console=rich.console.Console(stderr=True), transient=True, refresh_per_second=4) as live:

@@ -133,17 +133,11 @@ def _refuse_targets(targets: list[str], sources: list[str], force: bool) -> None
     for target in targets:
         kind = Path(target).suffix.lower()
         if kind not in (".html", ".png", *nivel.view.capture.FILMS):
-            faults.append(
-                Fault.at(
-                    "",
-                    f"{target}: a name ending in .html, .png, {' or '.join(nivel.view.capture.FILMS)} was expected",
-                )
-            )
+            films = " or ".join(nivel.view.capture.FILMS)
+            faults.append(Fault.at("", f"{target}: a name ending in .html, .png, {films} was expected"))
             continue
         try:
-            nivel.files.target.check_target(
-                Path(target), "file", force=force, sources=[Path(source) for source in sources]
-            )
+            nivel.files.target.check_target(Path(target), "file", force=force, sources=list(map(Path, sources)))
         except ModelError as error:
             faults += error.faults
     refuse(faults)

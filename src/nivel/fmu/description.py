@@ -118,10 +118,12 @@ def variables_of(found: Followed) -> list[Variable]:
 def description(machine: Exported, variables: Sequence[Variable], token: str, version: int) -> str:
     """The text of the file. version : of FMI, 3 or 2."""
     record, settings = machine.plan.machine, machine.plan.settings
-    named = {"description": record.description.strip(), "generationTool": f"nivel {nivel.__version__}"}
     ours = {
-        3: {"fmiVersion": "3.0", "modelName": record.name, "instantiationToken": token, **named},
-        2: {"fmiVersion": "2.0", "modelName": record.name, "guid": token, **named},
+        "fmiVersion": f"{version}.0",
+        "modelName": record.name,
+        {3: "instantiationToken", 2: "guid"}[version]: token,
+        "description": record.description.strip(),
+        "generationTool": f"nivel {nivel.__version__}",
     }
     state = {3: "FMUState", 2: "FMUstate"}[version]
     able = {
@@ -135,7 +137,7 @@ def description(machine: Exported, variables: Sequence[Variable], token: str, ve
     experiment = {"startTime": "0.0", "stopTime": repr(settings.duration), "stepSize": repr(settings.step)}
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
-        f"<fmiModelDescription{_attributes(ours[version])}>",
+        f"<fmiModelDescription{_attributes(ours)}>",
         f"<CoSimulation{_attributes(able)}/>",
         *_units(variables),
         "<LogCategories>",
@@ -143,9 +145,9 @@ def description(machine: Exported, variables: Sequence[Variable], token: str, ve
         "</LogCategories>",
         f"<DefaultExperiment{_attributes(experiment)}/>",
         "<ModelVariables>",
-        *({3: _variables_3, 2: _variables_2}[version](variables)),
+        *_variables(variables, version),
         "</ModelVariables>",
-        *({3: _structure_3, 2: _structure_2}[version](variables)),
+        *_structure(variables, version),
         "</fmiModelDescription>",
     ]
     return "\n".join(lines) + "\n"
@@ -161,40 +163,34 @@ def _plain(text: str) -> str:
 
 
 def _numbers(each: Variable) -> dict[str, str]:
-    found = {"unit": each.units, "start": each.start, "min": each.low, "max": each.high}
-    texts = {
-        name: value if isinstance(value, str) else repr(value) for name, value in found.items() if value is not None
-    }
-    return texts if texts["unit"] not in ("", "1") else {name: text for name, text in texts.items() if name != "unit"}
+    found = {"start": each.start, "min": each.low, "max": each.high}
+    numbers = {name: repr(value) for name, value in found.items() if value is not None}
+    return {"unit": "" if each.units == "1" else each.units, **numbers}
 
 
-def _variables_3(variables: Sequence[Variable]) -> Iterator[str]:
-    yield '<Float64 name="time" valueReference="0" causality="independent" variability="continuous" unit="s"/>'
+def _variables(variables: Sequence[Variable], version: int) -> Iterator[str]:
+    """Version 3 says of what varies continuously nothing, and has the time as a variable."""
+    if version == 3:
+        yield '<Float64 name="time" valueReference="0" causality="independent" variability="continuous" unit="s"/>'
     for each in variables:
-        kind = {"output": {"initial": "calculated"}, "parameter": {"variability": "fixed", "initial": "exact"}}
-        given = {"name": each.name, "valueReference": str(each.reference), "causality": each.causality}
-        given |= {**kind.get(each.causality, {}), "description": each.description, **_numbers(each)}
-        yield f"<Float64{_attributes(given)}/>"
-
-
-def _structure_3(variables: Sequence[Variable]) -> Iterator[str]:
-    outputs = [each.reference for each in variables if each.causality == "output"]
-    yield "<ModelStructure>"
-    yield from (f'<Output valueReference="{each}"/>' for each in outputs)
-    yield from (f'<InitialUnknown valueReference="{each}"/>' for each in outputs)
-    yield "</ModelStructure>"
-
-
-def _variables_2(variables: Sequence[Variable]) -> Iterator[str]:
-    for each in variables:
-        varies = "fixed" if each.causality == "parameter" else "continuous"
+        varies = "fixed" if each.causality == "parameter" else {3: "", 2: "continuous"}[version]
         initial = {"output": "calculated", "parameter": "exact"}.get(each.causality, "")
         given = {"name": each.name, "valueReference": str(each.reference), "causality": each.causality}
         given |= {"variability": varies, "initial": initial, "description": each.description}
-        yield f"<ScalarVariable{_attributes(given)}><Real{_attributes(_numbers(each))}/></ScalarVariable>"
+        if version == 3:
+            yield f"<Float64{_attributes({**given, **_numbers(each)})}/>"
+        else:
+            yield f"<ScalarVariable{_attributes(given)}><Real{_attributes(_numbers(each))}/></ScalarVariable>"
 
 
-def _structure_2(variables: Sequence[Variable]) -> Iterator[str]:
+def _structure(variables: Sequence[Variable], version: int) -> Iterator[str]:
+    if version == 3:
+        outputs = [each.reference for each in variables if each.causality == "output"]
+        yield "<ModelStructure>"
+        yield from (f'<Output valueReference="{each}"/>' for each in outputs)
+        yield from (f'<InitialUnknown valueReference="{each}"/>' for each in outputs)
+        yield "</ModelStructure>"
+        return
     places = [k for k, each in enumerate(variables, start=1) if each.causality == "output"]
     if not places:
         yield "<ModelStructure/>"

@@ -50,14 +50,10 @@ def choose_view(points: Array, turning: Array, sliding: Array, up: Array = Z) ->
 
 def is_planar(points: Array, turning: Array, sliding: Array) -> bool:
     """Whether a machine with these points and axes, as for `choose_view`, moves in one plane."""
-    if not len(turning) or abs(turning @ turning[0]).min() <= ALIGNED or not _is_flat(points, turning[0]):
+    if not len(turning) or abs(turning @ turning[0]).min() <= ALIGNED:
         return False
-    return bool(np.all(np.abs(sliding @ turning[0]) < 0.1))
-
-
-def _is_flat(points: Array, normal: Array) -> bool:
-    """Whether points (n, 3) lie in a plane with this normal."""
-    return float(np.ptp(points @ normal)) <= PLANAR * float(np.ptp(points, axis=0).max())
+    flat = np.ptp(points @ turning[0]) <= PLANAR * np.ptp(points, axis=0).max()
+    return bool(flat and np.all(np.abs(sliding @ turning[0]) < 0.1))
 
 
 def _head_on(normal: Array, up: Array) -> View:

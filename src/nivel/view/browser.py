@@ -140,17 +140,12 @@ def tab(page: Path, width: int, height: int, *, dark: bool) -> Iterator[Tab]:
 
 def require_browser() -> str:
     """The program of a browser. Raises ModelError where there is none."""
-    program = find_browser()
-    if program is None:
-        raise ModelError(_missing())
-    return program
-
-
-def _missing() -> str:
-    chosen = os.environ.get("NIVEL_BROWSER")
-    if not chosen:
-        return WANTED
-    return f"NIVEL_BROWSER is `{chosen}`, which is no program that can be started; set it to the program of chromium, chrome or edge"
+    if (program := find_browser()) is not None:
+        return program
+    if not (chosen := os.environ.get("NIVEL_BROWSER")):
+        raise ModelError(WANTED)
+    said = "which is no program that can be started; set it to the program of chromium, chrome or edge"
+    raise ModelError(f"NIVEL_BROWSER is `{chosen}`, {said}")
 
 
 def _started(program: str, profile: Path) -> subprocess.Popen[bytes]:

@@ -138,25 +138,13 @@ def _gif(path: Path, look: Look) -> Iterator[Take]:
 
     def take(content: bytes) -> None:
         picture = PIL.Image.open(BytesIO(content)).convert("RGB")
-        # the colours of the first picture serve all: none flickers
-        palette = pictures[0] if pictures else None
-        pictures.append(
-            picture.quantize(255)
-            if palette is None
-            else picture.quantize(palette=palette, dither=PIL.Image.Dither.NONE)
-        )
+        palette = pictures[0] if pictures else None  # the colours of the first picture serve all: none flickers
+        pictures.append(picture.quantize(255, palette=palette, dither=PIL.Image.Dither.NONE))
 
     yield take
-    content = BytesIO()
-    pictures[0].save(
-        content,
-        "GIF",
-        save_all=True,
-        append_images=pictures[1:],
-        duration=round(1000 / look.rate),
-        loop=0,
-        optimize=False,
-    )
+    content, duration = BytesIO(), round(1000 / look.rate)
+    first, *others = pictures
+    first.save(content, "GIF", save_all=True, append_images=others, duration=duration, loop=0, optimize=False)
     write_file(path, "film", content.getvalue())
 
 

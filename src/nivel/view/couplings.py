@@ -40,11 +40,17 @@ class _Couplings:
 
     def __init__(self, cast: Cast, position: Array, orientation: Array) -> None:
         self._cast = cast
-        self._r, self._A = position, rotation(orientation)
+        # the ground is the last: its place among bodies is -1
+        self._r, self._A = np.vstack([position, np.zeros(3)]), np.concatenate([rotation(orientation), [np.eye(3)]])
 
     def records(self) -> list[Coupling]:
-        belts = [_as_belt(each) for each in self._cast.record.get("forces", []) if each.get("type") == "belt-drive"]
-        return [self._coupling(each) for each in (*self._cast.record.get("couplings", []), *belts)]
+        record = self._cast.record
+        belts = [
+            {**each, "joints": [each.get("coordinate"), each.get("against")]}
+            for each in record.get("forces", [])
+            if each.get("type") == "belt-drive"
+        ]
+        return [self._coupling(each) for each in (*record.get("couplings", []), *belts)]
 
     def _coupling(self, known: dict[str, Any]) -> Coupling:
         kind = str(known.get("type", "coupling"))
@@ -106,24 +112,14 @@ class _Couplings:
         across = across / length if length > PARALLEL else np.zeros(3)
         towards = float((self._placed(body, at.joint.points[side]) - centre) @ across)
         touch = centre + (wheel.radius if towards >= 0.0 else -wheel.radius) * across
-        return Track(body, triple(self._back(body, touch)), triple(self._unturned(body, along)), np.pi * wheel.radius)
+        back = self._A[body].T
+        return Track(body, triple(back @ (touch - self._r[body])), triple(back @ along), np.pi * wheel.radius)
 
     def _turned(self, body: int, vector: Any) -> Array:
-        return np.asarray(vector, float) if body < 0 else self._A[body] @ np.asarray(vector, float)
-
-    def _unturned(self, body: int, vector: Array) -> Array:
-        return vector if body < 0 else self._A[body].T @ vector
+        return self._A[body] @ np.asarray(vector, float)
 
     def _placed(self, body: int, point: Any) -> Array:
-        return self._turned(body, point) + (0.0 if body < 0 else self._r[body])
-
-    def _back(self, body: int, point: Array) -> Array:
-        return self._unturned(body, point - (0.0 if body < 0 else self._r[body]))
-
-
-def _as_belt(force: dict[str, Any]) -> dict[str, Any]:
-    """A belt drive, which is a force, as the coupling that it is drawn as."""
-    return {**force, "joints": [force.get("coordinate"), force.get("against")]}
+        return self._turned(body, point) + self._r[body]
 
 
 def _followed(known: dict[str, Any]) -> list[str]:

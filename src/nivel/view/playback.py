@@ -158,26 +158,15 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
     if number == 0:
         bending, felt, colourless = _coloured(result, bending, frames, block, budget)
     return Stage(
+        **vars(where),
+        **{**players.lists, "joints": drawn.joints or players.joints},
         name=result.name,
         title=str(result.path.name) if result.path else result.name,
-        up=where.up,
-        viewpoint=where.viewpoint,
-        origin=where.origin,
-        low=where.low,
-        high=where.high,
-        size=where.size,
         layout=frame_plan.layout(bodies, 0 if modal is None else modal.shape[1], vectors.shape[1]),
         flexible=bending,
         sections=felt,
         colourless=colourless,
-        bodies=players.bodies,
-        joints=drawn.joints or players.joints,
-        forces=players.forces,
-        markers=players.markers,
         arrows=drawn.arrows,
-        drivers=players.drivers,
-        sweeps=players.sweeps,
-        surroundings=players.surroundings,
         couplings=couplings(players, position, orientation),
         columns=columns(result, frames, block, budget.columns)
         if budget.plots and (number == 0 or budget.columns)
@@ -208,13 +197,12 @@ def _coloured(
     result: Result, bending: list[Flexible], frames: slice, block: Block, budget: Budget
 ) -> tuple[list[Flexible], Sections | None, list[str]]:
     """Flexible bodies with their stress, what beams feel, and in sentences what is left out. Machines without both load nothing for it."""
-    felt, missing = None, []
+    felt, missing, more = None, [], []
     if result.scene.get("sweeps"):
         felt, missing = nivel.view.colours.sections(result, frames, block, budget.sections)
     if bending:
         bending, more = nivel.view.colours.with_stress(result, bending, block, budget.stress)
-        missing = [*missing, *more]
-    return bending, felt, missing
+    return bending, felt, [*missing, *more]
 
 
 @dataclass(frozen=True)
@@ -247,10 +235,10 @@ def _described(result: Result) -> tuple[dict[str, Any], dict[str, Any]]:
     Raises ModelError where they are damaged.
     """
     try:
-        scene = result.scene
-        record = json.loads(str(result.attributes.get("machine_record", "{}")))
+        found = result.scene, json.loads(str(result.attributes.get("machine_record", "{}")))
     except ValueError:
-        raise ModelError(f"{_title(result)}: its description of the machine cannot be read") from None
+        found = None, None
+    scene, record = found
     if not isinstance(scene, dict) or not isinstance(record, dict):
         raise ModelError(f"{_title(result)}: its description of the machine cannot be read")
     return scene, record

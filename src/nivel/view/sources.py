@@ -172,24 +172,13 @@ def machine_stage(
     row = frames.rows(position[None] - np.array(where.origin), orientation[None], np.zeros((1, modes)))
     motion = records.Motion(block.add(np.zeros(1), "f8"), block.add(row.T), 1, 1)
     return records.Stage(
+        **vars(where),
+        **players.lists,
         name=name,
         title=name,
-        up=where.up,
-        viewpoint=where.viewpoint,
-        origin=where.origin,
-        low=where.low,
-        high=where.high,
-        size=where.size,
         layout=frames.layout(len(players.bodies), modes),
         flexible=bending,
-        bodies=players.bodies,
-        joints=players.joints,
-        forces=players.forces,
-        markers=players.markers,
         arrows=[],
-        drivers=players.drivers,
-        sweeps=players.sweeps,
-        surroundings=players.surroundings,
         couplings=couplings(players, position[None], orientation[None]),
         coordinates=[
             records.Coordinate(m.name, m.name.partition(".")[0], m.unit, m.value, m.low, m.high, m.free)

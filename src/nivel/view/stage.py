@@ -54,6 +54,11 @@ class Cast:
     surroundings: list[Part]
     places: dict[str, int] = field(default_factory=dict)
 
+    @property
+    def lists(self) -> dict[str, Any]:
+        """All elements, by the names that a `Stage` has for them."""
+        return {name: each for name, each in vars(self).items() if isinstance(each, list)}
+
 
 def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
     """The elements of a machine. scene : as in a result; record : its machine record as JSON, which may be empty."""
@@ -74,21 +79,16 @@ def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
         joints,
         forces(scene, record, places, drawn, joints),
         drivers(record, places, drawn, joints),
-        [
-            Marker(
-                m["name"],
-                places[m["body"]],
-                triple(m["position"]),
-                triple(m.get("x_axis", (1, 0, 0))),
-                triple(m.get("axis", (0, 0, 1))),
-            )
-            for m in scene.get("markers", [])
-            if m["body"] != "ground"
-        ],
+        [_marker(each, places) for each in scene.get("markers", []) if each["body"] != "ground"],
         [_sweep(each, places) for each in scene.get("sweeps", [])],
         [part(each, block) for each in scene.get("surroundings", [])],
         places,
     )
+
+
+def _marker(marker: dict[str, Any], places: dict[str, int]) -> Marker:
+    x_axis, axis = triple(marker.get("x_axis", (1, 0, 0))), triple(marker.get("axis", (0, 0, 1)))
+    return Marker(marker["name"], places[marker["body"]], triple(marker["position"]), x_axis, axis)
 
 
 def flexible(scene: dict[str, Any], block: Block, modal: Array | None) -> list[Flexible]:
@@ -103,20 +103,8 @@ def flexible(scene: dict[str, Any], block: Block, modal: Array | None) -> list[F
         modes = np.frombuffer(packed, "<f4").reshape(-1, len(vertices), 3)
         first = int(looks["first"])
         high = 0.0 if modal is None else _largest(modes, modal[:, first : first + len(modes)])
-        out.append(
-            Flexible(
-                body=k,
-                name=body["name"],
-                vertices=block.add(vertices, "f4"),
-                triangles=block.add(triangles, "u4"),
-                modes=block.add(modes, "f4"),
-                first=first,
-                low=0.0,
-                high=high,
-                unit="m",
-                quantity="displacement",
-            )
-        )
+        arrays = block.add(vertices, "f4"), block.add(triangles, "u4"), block.add(modes, "f4")
+        out.append(Flexible(k, body["name"], *arrays, first, 0.0, high, "m", "displacement"))
     return out
 
 

@@ -43,9 +43,8 @@ class Part:
     @property
     def label_width(self) -> float:
         """[px] of name and setting."""
-        return LETTER * max(
-            len(self.label), *(len(text) + len(VALUE) * (variable != "") for text, variable in self.words), 0
-        )
+        below = (len(text) + len(VALUE) * (variable != "") for text, variable in self.words)
+        return LETTER * max(len(self.label), *below, 0)
 
 
 @dataclass
@@ -76,9 +75,7 @@ def circuit_of(record: Mapping[str, Any]) -> Circuit:
         if kind == "reservoir" or (kind == "tank" and not _is_supply(data)):
             drains.add(name)
             gases |= {name} if gas else set()
-        elif (
-            kind in COMPONENTS and COMPONENTS[kind].symbol is None and COMPONENTS[kind].add is None
-        ):  # where lines meet
+        elif kind in COMPONENTS and COMPONENTS[kind].symbol is COMPONENTS[kind].add is None:  # where lines meet
             values[name] = f"hydraulics.{name}.pressure"
         else:
             symbol = _symbol(data, kind)

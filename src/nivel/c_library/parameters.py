@@ -81,7 +81,8 @@ def follow(parameters: Sequence[Parameter], nominal: Exported, vary: Vary) -> Fo
             if not lacking:
                 raise ModelError([fault for each in error.args for fault in _faults(each, paths, base.what)]) from None
             asides |= lacking
-            base, values = _beside(defaults, asides, varied)
+            values = np.array([(BESIDE * x or BESIDE_ZERO) if k in asides else x for k, x in enumerate(defaults)])
+            base = varied(values)
     _check_together(paths, defaults, base, numbers, varied)
     if asides and (name := _unlike_output(base, numbers, defaults, nominal)):
         listed = " and ".join(f"`{paths[k]}`" for k in sorted(asides))
@@ -90,9 +91,8 @@ def follow(parameters: Sequence[Parameter], nominal: Exported, vary: Vary) -> Fo
         )
     addresses = memory_of(base.prepared, base.loop).addresses[numbers.places]
     words = np.array([base.image.byte_of(int(each)) // WORD for each in addresses], dtype=np.intp)
-    base.image.words.view(np.float64)[words] = (
-        numbers.at(defaults) if asides else base.image.words.view(np.float64)[words]
-    )
+    if asides:
+        base.image.words.view(np.float64)[words] = numbers.at(defaults)
     least = tuple(_least(k, defaults, base, numbers, varied) for k in range(len(paths)))
     return Followed(base, tuple(parameters), least, numbers, words)
 
@@ -116,12 +116,6 @@ def memory_of(prepared: Prepared, loop: Loop) -> MachineMemory:
     twin = prepared.motion.twin
     twins = {} if twin is None else {"twin": lanes_of(twin.record)}
     return MachineMemory(machine=loop.machine.record, **twins, history=loop.history.record)
-
-
-def _beside(defaults: Array, asides: set[int], varied: Callable[[Array], Exported]) -> tuple[Exported, Array]:
-    """The machine with some parameters beside their defaults, and the values. Raises ModelError where it accepts none."""
-    values = np.array([(BESIDE * x or BESIDE_ZERO) if k in asides else x for k, x in enumerate(defaults)])
-    return varied(values), values
 
 
 def _check_together(

@@ -215,35 +215,23 @@ def _watched(result: Result, span: dict[str, slice], size: float) -> Iterator[lo
         return [*range(span[name].start, span[name].stop)] if name in span else []
 
     energies = [*of("kinetic_energy"), *of("external_work"), *of("dissipated_energy")]
-    yield local.Watched(
-        text=f"Energy: error {{}} of the largest energy ({BALANCE})",
-        columns=of("energy_error"),
-        factors=[1.0],
-        summed=False,
-        against=energies,
-        changes=of("potential_energy"),
-        floor=ENERGY_FLOOR * weight(result) * size,
-        speed=0.0,
-        green=BALANCE.green,
-        amber=BALANCE.amber,
+    said, error, changes = (
+        f"Energy: error {{}} of the largest energy ({BALANCE})",
+        of("energy_error"),
+        of("potential_energy"),
     )
+    floor = ENERGY_FLOOR * weight(result) * size
+    yield local.Watched(said, error, [1.0], False, energies, changes, floor, 0.0, BALANCE.green, BALANCE.amber)
     units = [*json.loads(str(result.attributes.get("constraint_units", "{}"))).values()]
-    for name, threshold, said, speed in (
-        (
-            "constraint_violation",
-            OPENING,
-            f"Joints: open by {{}} of the machine's size, or of 1 as a cosine ({OPENING})",
-            0.0,
-        ),
-        ("constraint_rate_violation", RATES, f"Joint rates: off by {{}} of the largest speed ({RATES})", 1.0),
+    opened = f"Joints: open by {{}} of the machine's size, or of 1 as a cosine ({OPENING})"
+    parted = f"Joint rates: off by {{}} of the largest speed ({RATES})"
+    for name, limit, said, of_length, of_cosine, floor in (
+        ("constraint_violation", OPENING, opened, 1.0 / size, 1.0, 1.0),
+        ("constraint_rate_violation", RATES, parted, 1.0, size, 0.0),
     ):
         if rows := of(name):
-            lengths = [unit == "m" for unit in units]
-            factors = [
-                (1.0 / size if length else 1.0) if not speed else (1.0 if length else size) for length in lengths
-            ]
-            floor = 0.0 if speed else 1.0
-            yield local.Watched(said, rows, factors, False, [], [], floor, speed, threshold.green, threshold.amber)
+            factors = [of_length if unit == "m" else of_cosine for unit in units]
+            yield local.Watched(said, rows, factors, False, [], [], floor, 1.0 - floor, limit.green, limit.amber)
     if f"{START}stored" in span:
         supplied, delivered, lost = (of(f"state.{START}{name}")[0] for name in INTEGRALS)
         stored = of(f"{START}stored")

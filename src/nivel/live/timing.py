@@ -185,10 +185,9 @@ def shares(live_run: LiveRun, control: Any, loop: Callable[[], int]) -> dict[str
     read = evaluation()
     families[0] = first
     forces = circuit = 0.0
-    words = live_run.plan.machine
-    of_circuits = (
-        {each.address for each in nivel.system.circuit_elements.families_of(words)} if words.hydraulics else ()
-    )
+    words, of_circuits = live_run.plan.machine, set[int]()
+    if words.hydraulics:
+        of_circuits = {each.address for each in nivel.system.circuit_elements.families_of(words)}
     for k, family in enumerate(int(each) for each in families):
         seconds = cost(lambda k=k, family=family: repeat_family(family, machine, k, at, AT_ONCE), AT_ONCE)
         circuit += seconds * (family in of_circuits)
@@ -198,23 +197,17 @@ def shares(live_run: LiveRun, control: Any, loop: Callable[[], int]) -> dict[str
     frame = np.zeros(motion.system.layout.width)
     output = cost(lambda: observe(machine, at, y, frame))
     evaluations = pace.substeps * float(run.counter[EVALUATIONS]) / max(float(run.counter[DONE_STEPS]), 1.0)
-    return _shared_out(
-        {
-            "bodies": evaluations * max(read - rows, 0.0),
-            "constraints": evaluations * rows + pace.substeps * correction,
-            "forces, control and inputs": evaluations * forces,
-            "circuit": evaluations * circuit,
-            "solve": evaluations * max(whole - read - forces - circuit, 0.0),
-            "output": output / pace.every,
-        },
-        max(median - idle, 0.0),
-    )
-
-
-def _shared_out(seconds: Mapping[str, float], median: float) -> dict[str, float]:
-    """What is left for the method is its own: derivatives and factors of implicit ones."""
-    total = max(median, sum(seconds.values()))
-    return {**{name: each / total for name, each in seconds.items()}, "method": 1.0 - sum(seconds.values()) / total}
+    its = {
+        "bodies": evaluations * max(read - rows, 0.0),
+        "constraints": evaluations * rows + pace.substeps * correction,
+        "forces, control and inputs": evaluations * forces,
+        "circuit": evaluations * circuit,
+        "solve": evaluations * max(whole - read - forces - circuit, 0.0),
+        "output": output / pace.every,
+    }
+    total = max(median - idle, sum(its.values()))
+    # what is left for the method is its own: derivatives and factors of implicit ones
+    return {**{name: each / total for name, each in its.items()}, "method": 1.0 - sum(its.values()) / total}
 
 
 def _seconds(call: Callable[[], Any]) -> float:

@@ -146,7 +146,9 @@ def _faults(function: Any, given: tuple[Any, ...], named: dict[str, Any]) -> Ite
         pairs += [(its.rest, value) for value in given[len(unnamed) :]]
     elif len(given) > len(unnamed):
         few = [name for name in unnamed if name in types]
-        yield Fault.at("", _too_many(_title(function, given), few, given[len(unnamed) :]))
+        taken = f"takes only {' and '.join(few)} without a name" if few else "takes its arguments by name"
+        rest = ", ".join(map(shown, given[len(unnamed) :]))
+        yield Fault.at("", f"{_title(function, given)} {taken}, got {rest} besides")
     for name, value in pairs:
         if name in types and not _fits(value, types[name]):
             yield Fault.at(name, f"{_expected(types[name])} was expected, got {shown(value)}")
@@ -159,12 +161,6 @@ def _faults(function: Any, given: tuple[Any, ...], named: dict[str, Any]) -> Ite
     for name in its.needed:
         if name not in there:
             yield Fault.at(name, f"{_title(function, given)} needs this: {_expected(types.get(name, Any))}")
-
-
-def _too_many(title: str, unnamed: list[str], rest: tuple[Any, ...]) -> str:
-    """The sentence on arguments without a name for which there is no place."""
-    taken = f"takes only {' and '.join(unnamed)} without a name" if unnamed else "takes its arguments by name"
-    return f"{title} {taken}, got {', '.join(map(shown, rest))} besides"
 
 
 def _title(function: Any, given: tuple[Any, ...]) -> str:

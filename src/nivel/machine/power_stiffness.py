@@ -8,18 +8,10 @@ from pydantic import PlainValidator, ValidationInfo, WithJsonSchema
 
 from nivel.machine.core.coefficient import COORDINATE, COORDINATE_EFFORT, kind_for
 from nivel.machine.given import OneNumber
+from nivel.machine.units import quantity
 from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.dimension import KINDS, Dimension, described, is_angular, without_angle
 from nivel.machine.units.measure import measure
-from nivel.machine.units.quantity import (
-    constant_tree,
-    expression_fault,
-    fault,
-    parameters_of,
-    read_quantity,
-    reported,
-    shown,
-)
 from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Parameters
 
 _HERTZ: Final = 1.5
@@ -34,14 +26,14 @@ def read_power_stiffness(
     Raises ExpressionError, FaultyParameterError.
     """
     if not isinstance(value, str):
-        return read_quantity(value, "number", given)
-    tree = constant_tree(value, given)
+        return quantity.read_quantity(value, "number", given)
+    tree = quantity.constant_tree(value, given)
     its, number = measure(tree), evaluate(tree)
     if its is not None and not any(_fits(its, _dimension(pair, exponent)) for pair in kinds):
         units = [
             f"{KINDS[effort][1]}/{KINDS[way][1]}" + (f"^{exponent:g}" if exponent != 1 else "") for effort, way in kinds
         ]
-        raise ExpressionError(f"{shown(value.strip())} is {described(its)}; {' or '.join(units)} was expected")
+        raise ExpressionError(f"{quantity.shown(value.strip())} is {described(its)}; {' or '.join(units)} was expected")
     return number
 
 
@@ -63,13 +55,13 @@ def _read(value: Any, info: ValidationInfo) -> float:
     kind = kind_for(data.get("coordinate"), COORDINATE) if "coordinate" in data else COORDINATE[0]
     pairs = tuple(pair for pair in zip(COORDINATE_EFFORT, COORDINATE, strict=True) if pair[1] in kind)
     try:
-        number = read_power_stiffness(value, pairs, exponent, parameters_of(info))
+        number = read_power_stiffness(value, pairs, exponent, quantity.parameters_of(info))
     except FaultyParameterError:
-        raise reported() from None
+        raise quantity.reported() from None
     except ExpressionError as problem:
-        raise expression_fault(problem, value, parameters_of(info)) from None
+        raise quantity.expression_fault(problem, value, quantity.parameters_of(info)) from None
     if number <= 0:
-        raise fault(f"a stiffness greater than zero was expected, got {shown(value)}")
+        raise quantity.fault(f"a stiffness greater than zero was expected, got {quantity.shown(value)}")
     return number
 
 

@@ -15,15 +15,9 @@ from typing import Any
 import numpy as np
 from pydantic import InstanceOf
 
+from nivel.elements.beams import gradients
 from nivel.elements.beams.beam import Beam
 from nivel.elements.beams.exact import masses_of
-from nivel.elements.beams.gradients import (
-    as_points,
-    lengths_of,
-    lumped_mass,
-    reach_of,
-    vectors_of_node,
-)
 from nivel.elements.beams.segments import Segments, segments_of
 from nivel.elements.joints.on_beams import on_beams
 from nivel.flexible.body.body import Interface, ReducedBody
@@ -114,11 +108,11 @@ class GradientNode(Flexibility):
 
 def gradient_nodes(beam: Beam) -> list[GradientNode]:
     """What makes the nodes of a beam deform."""
-    width, lengths, reach = vectors_of_node(beam), lengths_of(beam), reach_of(beam)
+    width, lengths, reach = gradients.vectors_of_node(beam), gradients.lengths_of(beam), gradients.reach_of(beam)
     W = np.zeros((len(lengths) + 1, width, width))
     roll = np.zeros(len(lengths) + 1)
     for e, length in enumerate(lengths.tolist()):
-        W[e : e + 2] += lumped_mass(beam, length)
+        W[e : e + 2] += gradients.lumped_mass(beam, length)
         roll[e : e + 2] += 0.5 * length * beam.properties.inertia[0, 0]
     if beam.model != "ancf-cable":
         roll[:] = 0.0  # it is in the gradients across the beam
@@ -131,7 +125,7 @@ def gradient_nodes(beam: Beam) -> list[GradientNode]:
 def modes_in_gradients(beam: Beam, node: ReducedBody) -> Array:
     """(k, 3, m) what the modal coordinates of a node change its gradients by, in its axes."""
     tips = node.interfaces
-    return np.stack([tip.phi / reach_of(beam) for tip in tips])
+    return np.stack([tip.phi / gradients.reach_of(beam) for tip in tips])
 
 
 def _node(name: str, W: Array, roll: float, reach: float) -> ReducedBody:
@@ -144,7 +138,7 @@ def _node(name: str, W: Array, roll: float, reach: float) -> ReducedBody:
     for j, moves in enumerate(shapes):
         for tip, axis in moves:
             displacement[1 + tip, axis, j] = reach
-    T = as_points(width, reach)
+    T = gradients.as_points(width, reach)
     raw = of_points(position, displacement, T.T @ W @ T)
     change = np.asarray(np.linalg.inv(np.linalg.cholesky(raw.I6)).T, dtype=float)
     its = raw.of_modes(change)

@@ -9,18 +9,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.beams import gradients
 from nivel.elements.beams.beam import Beam
 from nivel.elements.beams.exact import MOST, ElementRow, masses_of
 from nivel.elements.beams.exact import apply_elastic as elastic_beam
-from nivel.elements.beams.gradients import (
-    as_points,
-    consistent_mass,
-    lengths_of,
-    lumped_mass,
-    points_of,
-    reach_of,
-    vectors_of_node,
-)
 from nivel.kernels.record.beam_record import BeamTangent, PointInertia, SharedMass
 from nivel.kernels.record.hook import FAMILIES
 from nivel.kernels.record.record import FREE, NONE, Record
@@ -196,12 +188,12 @@ def point_inertia(builder: SystemBuilder, beams: Sequence[Beam]) -> PointInertia
     for beam in beams:
         if not beam.has_gradients:
             continue
-        width = vectors_of_node(beam)
-        T = np.kron(np.eye(2), as_points(width, reach_of(beam)))
-        points = points_of(builder, beam)
-        for e, length in enumerate(lengths_of(beam).tolist()):
-            first, second = lumped_mass(beam, length)
-            rest = consistent_mass(beam, length)
+        width = gradients.vectors_of_node(beam)
+        T = np.kron(np.eye(2), gradients.as_points(width, gradients.reach_of(beam)))
+        points = gradients.points_of(builder, beam)
+        for e, length in enumerate(gradients.lengths_of(beam).tolist()):
+            first, second = gradients.lumped_mass(beam, length)
+            rest = gradients.consistent_mass(beam, length)
             rest[:width, :width] -= first
             rest[width:, width:] -= second
             matrix = np.zeros((1, MOST_VECTORS, MOST_VECTORS))

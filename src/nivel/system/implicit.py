@@ -8,15 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.record.implicit_record import (
-    ComplexFactors,
-    Coupled,
-    Newton,
-    RealFactors,
-    Residual,
-    Shifted,
-    StepResidual,
-)
+from nivel.kernels.record import implicit_record
 from nivel.kernels.record.record import NONE, Record
 from nivel.system.elimination.factor_plan import FactorPlan
 from nivel.system.elimination.tangent_plan import TangentPlan, plan_tangent
@@ -29,12 +21,12 @@ Index = NDArray[np.uint32]
 EMPTY = plan_tangent([], [], [], mirrored=True)
 
 
-def no_residual() -> Residual:
+def no_residual() -> implicit_record.Residual:
     """For explicit methods: all arrays empty."""
     return residual_tables(0, 0, 0, 0, index_array([], 1), index_array([], 4))
 
 
-def no_newton() -> Newton:
+def no_newton() -> implicit_record.Newton:
     """For explicit methods: all arrays empty."""
     return newton_tables(index_array([], 2), 0, 0, 0, EMPTY)
 
@@ -51,7 +43,7 @@ def residual_tables(
     free: bool | None = None,
     flexible: tuple[int, int, int] = (0, 0, 0),
     nodes: Sequence[int] = (),
-) -> Residual:
+) -> implicit_record.Residual:
     """For so many bodies, entries of y, velocities and states of forces. row, part, stiction : as in `Residual`.
 
     free : whether nothing joins the machine to the ground, for residuals over a whole step; None for all others. flexible : numbers of
@@ -59,7 +51,7 @@ def residual_tables(
     """
     rows = len(row) + len(stiction)
     whole = free is not None
-    return Residual(
+    return implicit_record.Residual(
         row=row,
         stiction=index_array(stiction, 1),
         part=part,
@@ -78,7 +70,7 @@ def residual_tables(
         frozen=np.full(len(stiction), np.nan),
         acceleration=np.zeros((bodies + 1, 6)),
         wrench=np.zeros((bodies + 1, 6)),
-        interval=StepResidual(
+        interval=implicit_record.StepResidual(
             numbers=np.array([0.0, 0.0, 0.0, float(bool(free))]),
             start=np.zeros((bodies if whole else 0, 12)),
             inertia=np.zeros((bodies if whole else 0, 3, 3)),
@@ -116,25 +108,25 @@ def places(state_map: StateMap, velocities: int, positions: int) -> Index:
     return out
 
 
-def shifted_tables(plan: TangentPlan, place: Index, state: int) -> Shifted:
+def shifted_tables(plan: TangentPlan, place: Index, state: int) -> implicit_record.Shifted:
     """For the derivatives planned, `place` of the velocities and entries of y."""
     entries, velocities = len(plan.factor.column), len(place)
-    return Shifted(
+    return implicit_record.Shifted(
         M=np.zeros(entries),
         D=np.zeros(entries),
         K=np.zeros(entries),
         real=real_factors(plan.factor, velocities, state),
-        pair=_factors(ComplexFactors, np.complex128, plan.factor, velocities, state),
+        pair=_factors(implicit_record.ComplexFactors, np.complex128, plan.factor, velocities, state),
         coupled=_coupled(plan, place, state),
     )
 
 
-def _coupled(plan: TangentPlan, place: Index, state: int) -> Coupled:
+def _coupled(plan: TangentPlan, place: Index, state: int) -> implicit_record.Coupled:
     """For the stages of a step; without numbers where they are not planned."""
     factor, stages, kept = plan.coupled or EMPTY.factor, 3 if plan.coupled else 0, 4 if plan.coupled else 0
     entries, velocities = len(plan.factor.column), len(place)
     turns = int(np.sum(place[:, 1] == 0))
-    return Coupled(
+    return implicit_record.Coupled(
         lu=factor.tables,
         column=factor.column,
         row_start=factor.row_start,
@@ -152,9 +144,9 @@ def _coupled(plan: TangentPlan, place: Index, state: int) -> Coupled:
     )
 
 
-def real_factors(factor: FactorPlan, velocities: int, state: int) -> RealFactors:
+def real_factors(factor: FactorPlan, velocities: int, state: int) -> implicit_record.RealFactors:
     """Room for the factors of a matrix with the pattern planned."""
-    return _factors(RealFactors, np.float64, factor, velocities, state)
+    return _factors(implicit_record.RealFactors, np.float64, factor, velocities, state)
 
 
 def _factors(kind: type, dtype: type, factor: FactorPlan, velocities: int, state: int) -> Any:
@@ -188,7 +180,7 @@ def newton_tables(
     filtered: bool = False,
     length: float = 1.0,
     compliance: Array | None = None,
-) -> Newton:
+) -> implicit_record.Newton:
     """For `place` of the velocities, entries of y, states of forces, multipliers, the derivatives planned and corners [s]; with room
     for `Shifted`, for the balance of accelerations and for filtered errors where a method or a machine asks for it.
 
@@ -198,7 +190,7 @@ def newton_tables(
     size = factor.size
     solved = real_factors(factor, n, 0)._asdict()
     del solved["r"]
-    return Newton(
+    return implicit_record.Newton(
         address=np.zeros(3, dtype=np.uint64),
         place=place,
         group=plan.group,

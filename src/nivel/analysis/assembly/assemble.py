@@ -11,16 +11,10 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
+from nivel.analysis.assembly import velocities
 from nivel.analysis.assembly.closing import OPEN, Wishes, close_positions
 from nivel.analysis.assembly.equations import MotionEquations, change_between
 from nivel.analysis.assembly.redundancy import refuse_lost_directions, refuse_tilted_axes
-from nivel.analysis.assembly.velocities import (
-    ROUND_OFF,
-    consistent_velocities,
-    given_velocities,
-    section_of,
-    taken_along,
-)
 from nivel.elements.joints import JOINTS
 from nivel.errors import Fault, ModelError, refuse
 from nivel.kernels.bodies.driven_turn import TURN_X
@@ -160,13 +154,15 @@ def _assemble(machine: MachineRecord, motion: MotionEquations, t: float) -> Asse
     refuse_lost_directions(machine, motion)
     if faults := list(half_turns(machine, motion, t, y)):
         raise ModelError(faults)
-    y, change = consistent_velocities(machine, motion, t, y, wishes)
-    y, more = taken_along(motion, t, y)
+    y, change = velocities.consistent_velocities(machine, motion, t, y, wishes)
+    y, more = velocities.taken_along(motion, t, y)
     change = change + more
-    told = max(ROUND_OFF, TOLD * float(np.max(np.abs(change / np.repeat([system.size, 1.0], 3)), initial=0.0)))
+    told = max(
+        velocities.ROUND_OFF, TOLD * float(np.max(np.abs(change / np.repeat([system.size, 1.0], 3)), initial=0.0))
+    )
     velocity_change = _named(system.bodies, change[:, :3], change[:, 3:], told * system.size, told)
     changed = {name for name, _, _ in velocity_change}
-    kept = given_velocities(machine)
+    kept = velocities.given_velocities(machine)
     followed = tuple(b.name for k, b in enumerate(machine.bodies) if b.name in changed and not kept[k].any())
     reference = system.record.coordinates.reference.copy()
     return Assembly(y, reference, gap, gap_row, _moves(system, given, y[: system.positions]), velocity_change, followed)
@@ -241,7 +237,7 @@ def _named(
 
 def _moves(system: System, given: Array, q: Array) -> tuple[tuple[str, float, float], ...]:
     change = change_between(given, q)
-    return _named(system.bodies, change[:, :3], change[:, 3:], ROUND_OFF * system.size, ROUND_OFF)
+    return _named(system.bodies, change[:, :3], change[:, 3:], velocities.ROUND_OFF * system.size, velocities.ROUND_OFF)
 
 
 def _refuse_open_joints(machine: MachineRecord, motion: MotionEquations, wishes: Wishes) -> None:
@@ -252,7 +248,7 @@ def _refuse_open_joints(machine: MachineRecord, motion: MotionEquations, wishes:
     for owner, rows in _rows_by_owner(system).items():
         worst = rows[int(np.argmax(share[rows]))]
         if not share[worst] <= OPEN:
-            faults.append(Fault.at(f"{section_of(system, owner)}.{owner}", _gap(system, worst)))
+            faults.append(Fault.at(f"{velocities.section_of(system, owner)}.{owner}", _gap(system, worst)))
         elif owner in parallel:
             first = int(record.joints.first_marker[parallel[owner]])
             if record.markers.A[first, :, 2] @ record.markers.A[first + 1, :, 2] < 0.0:

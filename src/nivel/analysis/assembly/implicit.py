@@ -25,14 +25,7 @@ from nivel.kernels.tree.modal_nodes import pass_modes
 from nivel.kernels.tree.tree_nodes import pass_sliders
 from nivel.lazy import dataclass, replace, scipy
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
-from nivel.system.beam_tables import (
-    elastic_family,
-    has_carried_nodes,
-    has_elastic_beams,
-    plain_nodes,
-    rail_of,
-    tangent_tables,
-)
+from nivel.system import beam_tables
 from nivel.system.elimination.tangent_plan import TangentPlan, plan_tangent
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
 from nivel.system.laws.laws import dual_address
@@ -134,9 +127,9 @@ def _with_rows(
     # residuals over a whole step have elements of beams act at the mean place too
     # and by hand nothing is known of rotation coordinates, of modes that move nodes of beams, nor of beams that move nodes of others
     by_rates = coordinates == "absolute" and len(system.map.turns) == 0
-    unknown = wanted.whole or wanted.along or by_rates or has_carried_nodes(record)
-    by_hand = not unknown and has_elastic_beams(record)
-    plain = plain_nodes(system, part) if by_hand else {}
+    unknown = wanted.whole or wanted.along or by_rates or beam_tables.has_carried_nodes(record)
+    by_hand = not unknown and beam_tables.has_elastic_beams(record)
+    plain = beam_tables.plain_nodes(system, part) if by_hand else {}
     # over a whole step the forces of joints act at the mean place, C is that of the end
     mirrored = wanted.free is None and not len(system.frictions)
     groups = unknown_groups(system, velocities, row, part, coordinates)
@@ -153,7 +146,7 @@ def _with_rows(
         hooks=_hooks(system, path, wanted, by_hand=by_hand),
     )
     if by_hand:
-        record = record._replace(beams=tangent_tables(record, plan, plain))
+        record = record._replace(beams=beam_tables.tangent_tables(record, plan, plain))
     twin = _twin(record, held=by_hand)
     family, instant = _families(path, wanted)
     record.newton.address[:] = twin.address, family.dual_address, instant.dual_address
@@ -249,7 +242,7 @@ def _longest_chain(record: Record) -> int:
     """Bodies on the longest way from the ground along the tree; 1 where bodies have coordinates of their own."""
     depth: dict[int, int] = {}
     for n, (child, parent) in enumerate(record.tree.node[:, :2].tolist()):
-        depth[child] = max(depth.get(each, 0) for each in (parent, *rail_of(record, n))) + 1
+        depth[child] = max(depth.get(each, 0) for each in (parent, *beam_tables.rail_of(record, n))) + 1
     return max(depth.values(), default=1)
 
 
@@ -274,7 +267,7 @@ def _twin(record: Record, *, held: bool) -> Handle:
         address[hook] = _on_duals(record.hooks.address[hook])
     families = np.array([_on_duals(each) for each in record.elements.address], dtype=np.uint64)
     if held:
-        families[elastic_family(record)] = hold.dual_address
+        families[beam_tables.elastic_family(record)] = hold.dual_address
     laws = np.array([dual_address(int(each)) if each else 0 for each in record.functions.address], dtype=np.uint64)
     return Handle(
         twin._replace(

@@ -6,15 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from scipy.linalg import (
-    LinAlgError,
-    cholesky,
-    eig,
-    eigh,
-    eigvalsh,
-    get_lapack_funcs,
-    solve_triangular,
-)
+from scipy import linalg
 from scipy.sparse import bmat, csc_matrix, diags
 from scipy.sparse.linalg import ArpackNoConvergence, splu
 
@@ -45,7 +37,7 @@ SHIFTS = (0.0, 1e-15, 1e-13, 1e-11, 1e-9)
 # Pivots below this share of the largest are none.
 NO_PIVOT = 1e-15
 # LU factors of a full matrix, and solutions with them
-getrf, getrs = get_lapack_funcs(("getrf", "getrs"), dtype=np.float64)
+getrf, getrs = linalg.get_lapack_funcs(("getrf", "getrs"), dtype=np.float64)
 
 
 class PivotError(Exception):
@@ -152,7 +144,11 @@ def negative_directions(tangent: Tangent, shift: float = 0.0) -> int:
         return 0
     if is_small(tangent):
         Z = tangent.free_directions
-        values = eigvalsh(symmetric(Z.T @ (tangent.K @ Z)) + shift * np.eye(Z.shape[1])) if Z.shape[1] else np.zeros(0)
+        values = (
+            linalg.eigvalsh(symmetric(Z.T @ (tangent.K @ Z)) + shift * np.eye(Z.shape[1]))
+            if Z.shape[1]
+            else np.zeros(0)
+        )
         return int(np.sum(values < -NO_STIFFNESS * np.max(np.abs(values), initial=0.0)))
     largest = float(np.abs(tangent.K).max()) if tangent.K.nnz else 0.0
     K = symmetric(tangent.K) + (shift + NO_STIFFNESS * largest) * diags(np.ones(size))
@@ -233,21 +229,21 @@ def symmetric_modes(K: Array, M: Array) -> tuple[Array, Array]:
     Raises PivotError where M is not positive to round-off.
     """
     try:
-        values, vectors = eigh(K, M)
-    except LinAlgError as error:
+        values, vectors = linalg.eigh(K, M)
+    except linalg.LinAlgError as error:
         raise PivotError from error
-    L, largest = cholesky(M, lower=True), float(np.max(np.abs(values), initial=0.0))
+    L, largest = linalg.cholesky(M, lower=True), float(np.max(np.abs(values), initial=0.0))
     for share in SHIFTS:
         shift = -share * largest
         try:
             inverse = _Full(K - shift * M).solve(L)
         except PivotError:
             continue
-        theta, x = eigh(symmetric(L.T @ inverse))
+        theta, x = linalg.eigh(symmetric(L.T @ inverse))
         size = np.abs(theta)
         near = size > np.sqrt(size.max() * size.min())
         far = np.argsort(np.abs(values - shift), kind="stable")[int(near.sum()) :]
-        low = solve_triangular(L, x[:, near], lower=True, trans=1)
+        low = linalg.solve_triangular(L, x[:, near], lower=True, trans=1)
         values = np.concatenate([1.0 / theta[near] + shift, values[far]])
         order = np.argsort(values, kind="stable")
         return values[order], np.hstack([low, vectors[:, far]])[:, order]
@@ -256,7 +252,7 @@ def symmetric_modes(K: Array, M: Array) -> tuple[Array, Array]:
 
 def _general(K: Array, M: Array) -> tuple[Array, Array]:
     """Real eigenvalues and complex pairs (their positive real parts, once) of an unsymmetric matrix, ascending, with real directions."""
-    found: Any = eig(K, M)
+    found: Any = linalg.eig(K, M)
     return _real(np.asarray(found[0]), np.asarray(found[1]), M)
 
 

@@ -13,18 +13,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.analysis.statics import states
 from nivel.analysis.statics.critical import is_mechanism, softest
 from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEquations, Tangent, with_multipliers
 from nivel.analysis.statics.linear import PivotError, negative_directions, saddle_factors, solve
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate, step_to
 from nivel.analysis.statics.rigid_motions import with_tie
-from nivel.analysis.statics.states import (
-    depends_on_samples,
-    equilibrate_states,
-    find_moving_states,
-    growing_motions,
-    settle_states,
-)
 from nivel.lazy import dataclass
 from nivel.system.system import Array
 
@@ -56,7 +50,9 @@ def settle(equations: StaticEquations, start: Rest, iteration: Iteration) -> Fou
         return _settle(equations, start, iteration)
     held = _held_by_states(equations, start, iteration)
     # whether motions grow under what is sampled is no question of rates
-    if held is not None and (depends_on_samples(equations, held.state) or growing_motions(equations, held.state) == 0):
+    if held is not None and (
+        states.depends_on_samples(equations, held.state) or states.growing_motions(equations, held.state) == 0
+    ):
         return held
     try:
         return _settled_with_states(equations, start, iteration)
@@ -70,9 +66,9 @@ def _held_by_states(equations: StaticEquations, start: Rest, iteration: Iteratio
     """The equilibrium of positions and states next to `start`, or None."""
     reference = equations.record.coordinates.reference.copy()
     try:
-        find_moving_states(equations, start)
+        states.find_moving_states(equations, start)
         if equations.states_move:
-            return equilibrate_states(equations, start, iteration)
+            return states.equilibrate_states(equations, start, iteration)
     except (StateError, EquilibriumError):
         pass
     equations.record.coordinates.reference[:] = reference
@@ -88,12 +84,12 @@ def _settled_with_states(equations: StaticEquations, start: Rest, iteration: Ite
         error = problem
     begin = start if found is None else found.state
     try:
-        find_moving_states(equations, begin)
+        states.find_moving_states(equations, begin)
     except StateError:
         raise EquilibriumError("a force, or the state, is not a number", begin) from None
     if equations.states_move:
         try:
-            return equilibrate_states(equations, begin, iteration)
+            return states.equilibrate_states(equations, begin, iteration)
         except EquilibriumError as problem:
             return _settled_or(problem, equations, start, iteration)
     if error is not None:
@@ -105,7 +101,7 @@ def _settled_with_states(equations: StaticEquations, start: Rest, iteration: Ite
 def _settled_or(problem: EquilibriumError, equations: StaticEquations, start: Rest, iteration: Iteration) -> Found:
     """Where positions and states settle together, from `start` on. Raises the problem where they do not."""
     try:
-        return settle_states(equations, start, iteration)
+        return states.settle_states(equations, start, iteration)
     except EquilibriumError:
         raise problem from None
 

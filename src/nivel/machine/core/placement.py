@@ -8,12 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from nivel.machine.bodies.shape import Standing
-from nivel.machine.core.orientation import (
-    euler_parameters,
-    euler_parameters_from_matrix,
-    matrix_from_euler_parameters,
-    rotation_matrix,
-)
+from nivel.machine.core import orientation
 from nivel.machine.core.vectors import cross
 
 if TYPE_CHECKING:
@@ -36,8 +31,8 @@ def placement(body: Body) -> tuple[Array, Array]:
     shape = body.shape
     if shape is not None and not isinstance(shape, Standing) and shape.from_ is not None and shape.to is not None:
         start, end = np.array(shape.from_), np.array(shape.to)
-        return (start + end) / 2, euler_parameters_from_matrix(frame_between(start, end))
-    return np.array(body.position or (0.0, 0.0, 0.0)), euler_parameters(body.orientation)
+        return (start + end) / 2, orientation.euler_parameters_from_matrix(frame_between(start, end))
+    return np.array(body.position or (0.0, 0.0, 0.0)), orientation.euler_parameters(body.orientation)
 
 
 def initial_velocity(body: Body) -> tuple[Array, Array]:
@@ -49,14 +44,14 @@ def initial_velocity(body: Body) -> tuple[Array, Array]:
         return velocity, np.array(body.angular_velocity_body)
     if body.angular_velocity is None:
         return velocity, np.zeros(3)
-    return velocity, matrix_from_euler_parameters(placement(body)[1]).T @ np.array(body.angular_velocity)
+    return velocity, orientation.matrix_from_euler_parameters(placement(body)[1]).T @ np.array(body.angular_velocity)
 
 
 def marker_frame(marker: Marker) -> tuple[Array, Array]:
     """Position (3,) [m] and axes (3, 3) (columns x, y, z) of a marker, in the frame of its body."""
     if marker.axis is not None:
         return np.array(marker.position), frame_from_axes(marker.axis, marker.x_axis)
-    return np.array(marker.position), rotation_matrix(marker.orientation)
+    return np.array(marker.position), orientation.rotation_matrix(marker.orientation)
 
 
 def frame_between(start: ArrayLike, end: ArrayLike) -> Array:

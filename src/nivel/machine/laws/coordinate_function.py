@@ -11,13 +11,7 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
 from nivel.lazy import dataclass
-from nivel.machine.core.coefficient import (
-    COORDINATE,
-    COORDINATE_ACCELERATION,
-    COORDINATE_EFFORT,
-    COORDINATE_RATE,
-    kind_for,
-)
+from nivel.machine.core import coefficient
 from nivel.machine.laws.time_function import OneFunction, TimeFunction, Varying, written
 
 
@@ -41,7 +35,7 @@ class OfCoordinateFunction:
             return self.kinds[0]
         if given.get("about") is not None:
             return self.kinds[1]
-        return kind_for(given.get("coordinate"), self.kinds)
+        return coefficient.kind_for(given.get("coordinate"), self.kinds)
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         serialization = core_schema.plain_serializer_function_ser_schema(written)
@@ -51,9 +45,9 @@ class OfCoordinateFunction:
         return Varying(self.kinds, self.local, self.smooth).__get_pydantic_json_schema__(schema, handler)
 
 
-CoordinateLaw = Annotated[OneFunction, OfCoordinateFunction(COORDINATE_EFFORT, local=("value", "rate"))]
-CoordinateEffortFunction = Annotated[OneFunction, OfCoordinateFunction(COORDINATE_EFFORT)]
-CoordinateSpeed = Annotated[OneFunction, OfCoordinateFunction(COORDINATE_RATE)]
-CoordinateAcceleration = Annotated[OneFunction, OfCoordinateFunction(COORDINATE_ACCELERATION)]
-CoordinatePosition = Annotated[OneFunction, OfCoordinateFunction(COORDINATE)]
-CoordinateMotion = Annotated[OneFunction, OfCoordinateFunction(COORDINATE, smooth=True)]
+CoordinateLaw = Annotated[OneFunction, OfCoordinateFunction(coefficient.COORDINATE_EFFORT, local=("value", "rate"))]
+CoordinateEffortFunction = Annotated[OneFunction, OfCoordinateFunction(coefficient.COORDINATE_EFFORT)]
+CoordinateSpeed = Annotated[OneFunction, OfCoordinateFunction(coefficient.COORDINATE_RATE)]
+CoordinateAcceleration = Annotated[OneFunction, OfCoordinateFunction(coefficient.COORDINATE_ACCELERATION)]
+CoordinatePosition = Annotated[OneFunction, OfCoordinateFunction(coefficient.COORDINATE)]
+CoordinateMotion = Annotated[OneFunction, OfCoordinateFunction(coefficient.COORDINATE, smooth=True)]

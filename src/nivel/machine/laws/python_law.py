@@ -13,16 +13,7 @@ from pydantic_core import InitErrorDetails
 from nivel.lazy import dataclass
 from nivel.machine.core.record import unknown_word
 from nivel.machine.laws.python_source import source_of
-from nivel.machine.units.quantity import (
-    ANY,
-    bound_tree,
-    expression_fault,
-    fault,
-    listed,
-    read_quantity,
-    reported,
-    shown,
-)
+from nivel.machine.units import quantity
 from nivel.machine.units.tree import TIME, ExpressionError, FaultyParameterError, Parameters, Signal, Time, varies
 from nivel.words.arguments import checked_arguments, checked_fields
 
@@ -49,7 +40,7 @@ class PythonLaw:
     file: str = ""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "arguments", tuple(listed(self.arguments)))
+        object.__setattr__(self, "arguments", tuple(quantity.listed(self.arguments)))
 
     @classmethod
     @checked_arguments
@@ -89,14 +80,14 @@ def read_python_law(
     if isinstance(given, PythonLaw):
         given = given.written()
     lines = [_line((word,), text, at_key=True) for word, text in _faults_of_keys(given)]
-    arguments = _read_arguments(listed(given.get("arguments", ())), parameters, local, lines)
+    arguments = _read_arguments(quantity.listed(given.get("arguments", ())), parameters, local, lines)
     source, function, file = given.get("source"), given.get("function"), given.get("file", "")
     for word, value in (("function", function), ("file", file)):
         if not isinstance(value, str):
-            message = f"`{word}` is missing" if value is None else f"a text was expected, got {shown(value)}"
+            message = f"`{word}` is missing" if value is None else f"a text was expected, got {quantity.shown(value)}"
             lines.append(_line((word,), message))
     if "source" in given and not isinstance(source, str):
-        lines.append(_line(("source",), f"the text of a Python file was expected, got {shown(source)}"))
+        lines.append(_line(("source",), f"the text of a Python file was expected, got {quantity.shown(source)}"))
     if isinstance(source, str) and isinstance(function, str) and isinstance(file, str):
         lines += [_line((word,), text) for word, text in _faults_of_text(source, function, file, arguments, results)]
     if lines:
@@ -122,18 +113,20 @@ def _read_arguments(
     given: object, parameters: Parameters, local: Collection[str], lines: list[InitErrorDetails]
 ) -> list[str | float]:
     if not isinstance(given, Sequence) or isinstance(given, str):
-        lines.append(_line(("arguments",), f"a list was expected, got {shown(given)}"))
+        lines.append(_line(("arguments",), f"a list was expected, got {quantity.shown(given)}"))
         return []
     arguments: list[str | float] = []
     for at, entry in enumerate(given):
         try:
             arguments.append(_read_argument(entry, parameters, local))
         except FaultyParameterError:
-            lines.append(InitErrorDetails(type=reported(), loc=("arguments", at), input=None))
+            lines.append(InitErrorDetails(type=quantity.reported(), loc=("arguments", at), input=None))
             arguments.append(0.0)
         except ExpressionError as problem:
             lines.append(
-                InitErrorDetails(type=expression_fault(problem, entry, parameters), loc=("arguments", at), input=None)
+                InitErrorDetails(
+                    type=quantity.expression_fault(problem, entry, parameters), loc=("arguments", at), input=None
+                )
             )
             arguments.append(0.0)
     return arguments
@@ -141,7 +134,7 @@ def _read_arguments(
 
 def _read_argument(entry: object, parameters: Parameters, local: Collection[str]) -> str | float:
     if isinstance(entry, str):
-        tree = bound_tree(entry, parameters, local)
+        tree = quantity.bound_tree(entry, parameters, local)
         match tree:
             case Time():
                 return TIME
@@ -149,7 +142,7 @@ def _read_argument(entry: object, parameters: Parameters, local: Collection[str]
                 return path
         if varies(tree):
             raise ExpressionError("an argument is `time`, one symbol or a number; compute with them in the function")
-    return read_quantity(entry, ANY, parameters)
+    return quantity.read_quantity(entry, quantity.ANY, parameters)
 
 
 def _faults_of_text(
@@ -243,4 +236,4 @@ def _returns(node: ast.AST) -> Iterator[ast.Return]:
 
 
 def _line(place: tuple[str | int, ...], message: str, *, at_key: bool = False) -> InitErrorDetails:
-    return InitErrorDetails(type=fault(message, at_key=at_key), loc=place, input=None)
+    return InitErrorDetails(type=quantity.fault(message, at_key=at_key), loc=place, input=None)

@@ -16,25 +16,12 @@ from nivel.lazy import dataclass
 from nivel.machine.given import Given, Validated
 from nivel.machine.laws.python_law import PythonLaw, read_python_law
 from nivel.machine.laws.table import Table, read_table
+from nivel.machine.units import quantity
 from nivel.machine.units.arithmetic import fold, render
 from nivel.machine.units.derivative import derivative
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.interpolation import INTERPOLATIONS
 from nivel.machine.units.measure import measure, readings
-from nivel.machine.units.quantity import (
-    ANY,
-    Kind,
-    bound_tree,
-    check_kind,
-    expected_kind,
-    expression_fault,
-    kinds_of,
-    lacking_unit,
-    parameters_of,
-    read_quantity,
-    refuse_celsius,
-    reported,
-)
 from nivel.machine.units.slips import is_tonne_compared
 from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Node, Parameters, varies
 
@@ -57,7 +44,7 @@ _RATES: Final = {"length": "velocity", "angle": "angular velocity"}
 
 
 def read_time_function(
-    value: object, kind: Kind, parameters: Parameters, local: Collection[str] = (), *, smooth: bool = False
+    value: object, kind: quantity.Kind, parameters: Parameters, local: Collection[str] = (), *, smooth: bool = False
 ) -> TimeFunction:
     """`value` as something that varies, of a quantity of `kind`, in SI.
 
@@ -75,7 +62,7 @@ def read_time_function(
     elif isinstance(value, Table | Mapping):
         function = read_table(value, kind, parameters, local)
     else:
-        function = read_quantity(value, kind, parameters)
+        function = quantity.read_quantity(value, kind, parameters)
     if smooth:
         check_smooth(function)
     return function
@@ -85,18 +72,18 @@ def _is_law(given: Mapping[Any, object]) -> bool:
     return any(word in given for word in ("python", "source", "function", "arguments"))
 
 
-def _read_text(text: str, kind: Kind, parameters: Parameters, local: Collection[str]) -> float | Expression:
-    refuse_celsius(text, kind)
+def _read_text(text: str, kind: quantity.Kind, parameters: Parameters, local: Collection[str]) -> float | Expression:
+    quantity.refuse_celsius(text, kind)
     if is_tonne_compared(text, (*parameters, *local)):
         raise ExpressionError("a mass is compared with a number")
-    tree = bound_tree(text, parameters, local)
+    tree = quantity.bound_tree(text, parameters, local)
     if not varies(tree):
         return _read_constant(text, kind, parameters)
     check_varying(tree, text.strip(), kind, parameters, local)
     return Expression(render(fold(tree)))
 
 
-def check_varying(tree: Node, text: str, kind: Kind, parameters: Parameters, local: Collection[str]) -> None:
+def check_varying(tree: Node, text: str, kind: quantity.Kind, parameters: Parameters, local: Collection[str]) -> None:
     """Refuse an expression `text` of variables, read as `tree`, that is not of `kind`.
 
     Raises ExpressionError, with the line to write where plain numbers lack units.
@@ -106,32 +93,32 @@ def check_varying(tree: Node, text: str, kind: Kind, parameters: Parameters, loc
     except ExpressionError as problem:
 
         def accepts(other: str, parameters: Parameters) -> None:
-            _check_kind_of_varying(bound_tree(other, parameters, local), other, kind)
+            _check_kind_of_varying(quantity.bound_tree(other, parameters, local), other, kind)
 
-        raise lacking_unit(problem, text, kind, parameters, local, accepts) from None
+        raise quantity.lacking_unit(problem, text, kind, parameters, local, accepts) from None
 
 
-def _read_constant(text: str, kind: Kind, parameters: Parameters) -> float:
+def _read_constant(text: str, kind: quantity.Kind, parameters: Parameters) -> float:
     """A quantity of `kind`. Raises ExpressionError, with the line to write where the speed is given in place of the way."""
     try:
-        return read_quantity(text, kind, parameters)
+        return quantity.read_quantity(text, kind, parameters)
     except ExpressionError as problem:
-        rates = tuple(_RATES[each] for each in kinds_of(kind) if each in _RATES)
+        rates = tuple(_RATES[each] for each in quantity.kinds_of(kind) if each in _RATES)
         if rates and _reads(text, rates, parameters):
             raise ExpressionError(f"{problem}; with this speed write `({text.strip()})*time`") from None
         raise
 
 
-def _reads(text: str, kind: Kind, parameters: Parameters) -> bool:
+def _reads(text: str, kind: quantity.Kind, parameters: Parameters) -> bool:
     """Whether `text` is a quantity of `kind`."""
     try:
-        read_quantity(text, kind, parameters)
+        quantity.read_quantity(text, kind, parameters)
     except ExpressionError:
         return False
     return True
 
 
-def _check_kind_of_varying(tree: Node, text: str, kind: Kind) -> None:
+def _check_kind_of_varying(tree: Node, text: str, kind: quantity.Kind) -> None:
     """`time` may count as a plain number of seconds (`sin(2*pi*time)`) or as a quantity (`5 N/s * time`), and signals
     likewise: for some choice everything must make sense.
 
@@ -140,7 +127,7 @@ def _check_kind_of_varying(tree: Node, text: str, kind: Kind) -> None:
     clash = None
     for reading in readings(tree):
         try:
-            check_kind(text, measure(tree, reading), kind)
+            quantity.check_kind(text, measure(tree, reading), kind)
         except ExpressionError as problem:
             clash = clash or problem
         else:
@@ -180,18 +167,18 @@ def written(value: TimeFunction) -> float | str | dict[str, Any]:
 class Varying:
     """Annotation of a field that is a TimeFunction of a quantity of `kind`; see `varying`."""
 
-    kind: Kind
+    kind: quantity.Kind
     local: tuple[str, ...] = ()
     smooth: bool = False
 
     def read(self, value: Any, info: ValidationInfo) -> TimeFunction:
-        parameters = parameters_of(info)
+        parameters = quantity.parameters_of(info)
         try:
             return read_time_function(value, self.kind, parameters, self.local, smooth=self.smooth)
         except FaultyParameterError:
-            raise reported() from None
+            raise quantity.reported() from None
         except ExpressionError as problem:
-            raise expression_fault(problem, value, parameters) from None
+            raise quantity.expression_fault(problem, value, parameters) from None
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         serialization = core_schema.plain_serializer_function_ser_schema(written)
@@ -201,11 +188,11 @@ class Varying:
         symbols = "`time`" if self.smooth else ", ".join(("`time`", *(f"`{word}`" for word in self.local), "signals"))
         return {
             "anyOf": [*_QUANTITY["anyOf"], *_table_schemas(self.smooth), _LAW],
-            "description": f"{expected_kind(self.kind)}: number, quantity, expression of {symbols}, table, or law in Python",
+            "description": f"{quantity.expected_kind(self.kind)}: number, quantity, expression of {symbols}, table, or law in Python",
         }
 
 
-def varying(kind: Kind, local: Collection[str] = (), *, smooth: bool = False) -> Varying:
+def varying(kind: quantity.Kind, local: Collection[str] = (), *, smooth: bool = False) -> Varying:
     """The annotation of a field that may vary: ``Annotated[OneFunction, varying("force", local=("length", "rate"))]``.
 
     kind : a key of KINDS, or several of which one must fit, or ANY
@@ -266,7 +253,7 @@ def _table_schemas(motion: bool) -> list[dict[str, Any]]:
 
 ForceComponent = Annotated[OneFunction, varying("force")]
 TorqueComponent = Annotated[OneFunction, varying("torque")]
-Measured = Annotated[OneFunction, varying(ANY)]
+Measured = Annotated[OneFunction, varying(quantity.ANY)]
 
 # Laws of springs: what the spring measures has a name of its own.
 SpringForce = Annotated[OneFunction, varying("force", local=("length", "rate"))]

@@ -7,16 +7,10 @@ from typing import Annotated, Any, TypeVar
 
 from pydantic import BeforeValidator
 
+from nivel import methods
 from nivel.machine.core.record import Record
 from nivel.machine.given import Field, Given
-from nivel.machine.settings.run import (
-    Coordinates,
-    Formulation,
-    Integrator,
-    Rotations,
-    Stabilisation,
-    Tolerance,
-)
+from nivel.machine.settings.run import Tolerance
 from nivel.machine.units.quantity import Duration, fault, listed
 from nivel.words.arguments import plain
 
@@ -49,11 +43,11 @@ Several = Annotated[tuple[Word, ...] | None, BeforeValidator(_listed)]
 class Axes(Record):
     """The words, steps [s] and tolerances of a grid. Where an axis is None, the machine's own setting is taken."""
 
-    integrators: Several[Integrator] = Field(default=None, description="time integration method")
-    formulations: Several[Formulation] = Field(default=None, description="equations of motion")
-    coordinates: Several[Coordinates] = Field(default=None, description="coordinates of the equations")
-    rotations: Several[Rotations] = Field(default=None, description="rotation coordinates of lagrange")
-    stabilisations: Several[Stabilisation] = Field(default=None, description="constraint stabilisation")
+    integrators: Several[methods.Integrator] = Field(default=None, description="time integration method")
+    formulations: Several[methods.Formulation] = Field(default=None, description="equations of motion")
+    coordinates: Several[methods.Coordinates] = Field(default=None, description="coordinates of the equations")
+    rotations: Several[methods.Rotations] = Field(default=None, description="rotation coordinates of lagrange")
+    stabilisations: Several[methods.Stabilisation] = Field(default=None, description="constraint stabilisation")
     steps: Given[Several[Duration], Several[float], Any] = Field(
         default=None, description="steps of integrators with a fixed step, e.g. 1ms,2ms"
     )

@@ -8,21 +8,12 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import ValidationInfo, field_validator
 
+from nivel import methods
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.record import Record
 from nivel.machine.given import Field, Given, ManyNames, Maybe, OneRecord
 from nivel.machine.units.quantity import Duration, Rate, Real, Whole, fault
 from nivel.machine.uses.coordinate_reference import CoordinateReference
-from nivel.methods import (
-    Coordinates,
-    Formulation,
-    Integrator,
-    Rotations,
-    Stabilisation,
-    Start,
-    StepControl,
-    chooses,
-)
 
 Tolerance = Annotated[Real, Field(gt=0.0, lt=1.0)]
 
@@ -137,12 +128,12 @@ class SimulationSettings(Checked):
         description="time between frames; with a fixed step a multiple of it",
         absent="up to 1000 intervals",
     )
-    integrator: OneRecord[Integrator] = Field(
+    integrator: OneRecord[methods.Integrator] = Field(
         default="rk4", description="time integration method", absent="by the machine"
     )
-    formulation: Formulation = Field(default="newton-euler", description="equations of motion")
-    coordinates: Coordinates = Field(default="auto", description="coordinates of the equations")
-    rotations: Rotations = Field(default="euler-parameters", description="rotation coordinates of lagrange")
+    formulation: methods.Formulation = Field(default="newton-euler", description="equations of motion")
+    coordinates: methods.Coordinates = Field(default="auto", description="coordinates of the equations")
+    rotations: methods.Rotations = Field(default="euler-parameters", description="rotation coordinates of lagrange")
     cut: ManyNames[str] = Field(
         default=(),
         description="joints that close loops: they stay constraints in relative coordinates",
@@ -155,12 +146,14 @@ class SimulationSettings(Checked):
         option="--independent NAMES",
         absent="chosen automatically",
     )
-    stabilisation: Stabilisation = Field(default="direct", description="constraint stabilisation")
-    start: Start = Field(default="as-given", description="initial state: as assembled, or the equilibrium at rest")
+    stabilisation: methods.Stabilisation = Field(default="direct", description="constraint stabilisation")
+    start: methods.Start = Field(
+        default="as-given", description="initial state: as assembled, or the equilibrium at rest"
+    )
     free: ManyNames[CoordinateReference] = Field(
         default=(), description="joint coordinates without stiffness that an equilibrium leaves where they are placed"
     )
-    step_control: StepControl = Field(
+    step_control: methods.StepControl = Field(
         default="own", description="steps fixed, or chosen by their error; own: as the integrator does"
     )
     tolerance: Tolerance = Field(
@@ -195,7 +188,7 @@ class SimulationSettings(Checked):
     def problems(self) -> Iterator[Problem]:
         """Each is about several settings, which its message names; the place is that of all of them."""
         is_open = "integrator" not in self.model_fields_set and self.step_control == "own"
-        fixed = not (is_open or chooses(self.integrator, self.step_control))
+        fixed = not (is_open or methods.chooses(self.integrator, self.step_control))
         messages = []
         if self.duration < SHORTEST:
             messages.append(f"`duration` {self.duration:g} s is shorter than {SHORTEST:g} s, the shortest run there is")

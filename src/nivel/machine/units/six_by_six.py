@@ -10,22 +10,13 @@ from numpy.typing import NDArray
 from pydantic import PlainSerializer, PlainValidator, ValidationError, ValidationInfo, WithJsonSchema
 from pydantic_core import InitErrorDetails
 
-from nivel.machine.units.quantity import (
-    Kind,
-    expression_fault,
-    fault,
-    listed,
-    parameters_of,
-    read_quantity,
-    reported,
-    shown,
-)
+from nivel.machine.units import quantity
 from nivel.machine.units.tree import ExpressionError, FaultyParameterError
 
 Array = NDArray[np.float64]
 Diagonal = tuple[float, ...]
 Matrix = tuple[tuple[float, ...], ...]
-Kinds = tuple[Kind, Kind, Kind]
+Kinds = tuple[quantity.Kind, quantity.Kind, quantity.Kind]
 
 TOLERANCE: Final = 1e-9  # by which a matrix may miss symmetry, and an eigenvalue zero, relative to the largest entry
 _NUMBER: Final = {"anyOf": [{"type": "number"}, {"type": "string"}]}
@@ -64,31 +55,33 @@ def lowest_eigenvalue(matrix: Array) -> float:
 
 
 def _six(kinds: Kinds, value: Any, info: ValidationInfo) -> Diagonal | Matrix:
-    value = listed(value)
+    value = quantity.listed(value)
     if not isinstance(value, list | tuple) or len(value) != 6:
-        raise fault(f"six numbers, or six rows of six, were expected, got {_count(value)}")
-    rows = [listed(row) for row in value]
+        raise quantity.fault(f"six numbers, or six rows of six, were expected, got {_count(value)}")
+    rows = [quantity.listed(row) for row in value]
     if not any(isinstance(row, list | tuple) for row in rows):
         return tuple(_read({(i,): (each, kinds[0 if i < 3 else 2]) for i, each in enumerate(rows)}, info))
     for at, row in enumerate(rows):
         if not isinstance(row, list | tuple) or len(row) != 6:
-            raise _at((at,), fault(f"a row of six numbers was expected, got {_count(row)}"))
+            raise _at((at,), quantity.fault(f"a row of six numbers was expected, got {_count(row)}"))
     entries = {(i, j): (each, kinds[(i > 2) + (j > 2)]) for i, row in enumerate(rows) for j, each in enumerate(row)}
     numbers = _read(entries, info)
     return tuple(tuple(numbers[6 * i : 6 * i + 6]) for i in range(6))
 
 
-def _read(entries: dict[tuple[int, ...], tuple[Any, Kind]], info: ValidationInfo) -> list[float]:
+def _read(entries: dict[tuple[int, ...], tuple[Any, quantity.Kind]], info: ValidationInfo) -> list[float]:
     """The numbers at these places, each of its kind; all faults at once."""
     numbers, lines = [], []
     for place, (value, kind) in entries.items():
         try:
-            numbers.append(read_quantity(value, kind, parameters_of(info)))
+            numbers.append(quantity.read_quantity(value, kind, quantity.parameters_of(info)))
         except FaultyParameterError:
-            lines.append(InitErrorDetails(type=reported(), loc=place, input=None))
+            lines.append(InitErrorDetails(type=quantity.reported(), loc=place, input=None))
         except ExpressionError as problem:
             lines.append(
-                InitErrorDetails(type=expression_fault(problem, value, parameters_of(info)), loc=place, input=None)
+                InitErrorDetails(
+                    type=quantity.expression_fault(problem, value, quantity.parameters_of(info)), loc=place, input=None
+                )
             )
     if lines:
         raise ValidationError.from_exception_data("matrix", lines)
@@ -100,7 +93,7 @@ def _at(place: tuple[int, ...], message: Any) -> ValidationError:
 
 
 def _count(value: Any) -> str:
-    return f"a list of {len(value)}" if isinstance(value, list | tuple) else shown(value)
+    return f"a list of {len(value)}" if isinstance(value, list | tuple) else quantity.shown(value)
 
 
 def _lists(value: Diagonal | Matrix) -> list[Any]:

@@ -11,12 +11,7 @@ from nivel.elements.joints.kind import Seen, TreeJoint
 from nivel.elements.joints.on_beams import between, element_of
 from nivel.kernels.record.record import NONE, Coordinates, Markers
 from nivel.lazy import dataclass, scipy
-from nivel.machine.core.orientation import (
-    conjugate,
-    euler_parameters_from_matrix,
-    matrix_from_euler_parameters,
-    product,
-)
+from nivel.machine.core import orientation
 from nivel.machine.core.vectors import cross
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.system import Array, System
@@ -50,7 +45,7 @@ def slider_start(kind: str, pose: tuple[Array, Array, Array, Array], rail: Rail)
     T = line(sigma, 1)
     rate = float(T @ (v - moving(sigma)) / (T @ T))
     if kind == "point-on-beam":
-        return [sigma, *euler_parameters_from_matrix(A)], [rate, *(A.T @ w)]
+        return [sigma, *orientation.euler_parameters_from_matrix(A)], [rate, *(A.T @ w)]
     (x, xdot), (y, ydot) = (_axis(rail, e, sigma, rate, k) for k in (0, 1))
     e2 = np.cross(x, y)
     e2 /= np.linalg.norm(e2)
@@ -202,7 +197,7 @@ def joint_start(
     turned = np.tile([1.0, 0.0, 0.0, 0.0], (len(own.R), 1))
     for n, node in enumerate(nodes):
         first[n], number[n, 4:] = frames.marker(markers, node.near, node.parent)
-        theta[n] = euler_parameters_from_matrix(first[n])
+        theta[n] = orientation.euler_parameters_from_matrix(first[n])
         if n in bent:
             q += bent[n].modal.tolist()
             v += [0.0] * len(bent[n].modal)
@@ -214,7 +209,7 @@ def joint_start(
             )
             q += positions
             v += velocities
-            joint = euler_parameters_from_matrix(bodies.A[node.child])
+            joint = orientation.euler_parameters_from_matrix(bodies.A[node.child])
         else:
             seen = _seen(bodies, node, first[n], number[n, 4:])
             tree = carrying(node.kind)
@@ -224,9 +219,11 @@ def joint_start(
             )
             q += positions
             v += velocities
-            joint = tree.turn(positions, number[n]) if tree.turn else euler_parameters_from_matrix(seen.Q)
-        turned[node.child] = product(product(turned[node.parent], theta[n]), joint)
-    own_theta = np.array([product(conjugate(e), f) for e, f in zip(turned, bodies.theta, strict=False)])
+            joint = tree.turn(positions, number[n]) if tree.turn else orientation.euler_parameters_from_matrix(seen.Q)
+        turned[node.child] = orientation.product(orientation.product(turned[node.parent], theta[n]), joint)
+    own_theta = np.array(
+        [orientation.product(orientation.conjugate(e), f) for e, f in zip(turned, bodies.theta, strict=False)]
+    )
     return JointStart(np.array(q), np.array(v), number, first, theta, own_theta.reshape(-1, 4), turned)
 
 
@@ -250,7 +247,7 @@ def poses(absolute: System, y: Array) -> Poses:
     count = absolute.body_count
     q, v = y[: 7 * count].reshape(count, 7), y[7 * count : 13 * count].reshape(count, 6)
     theta = q[:, 3:] / np.linalg.norm(q[:, 3:], axis=1, keepdims=True)
-    A = np.array([*(matrix_from_euler_parameters(e) for e in theta), np.eye(3)])
+    A = np.array([*(orientation.matrix_from_euler_parameters(e) for e in theta), np.eye(3)])
     zero = np.zeros((1, 3))
     omega = np.vstack([np.einsum("bij,bj->bi", A[:-1], v[:, 3:]), zero])
     return Poses(np.vstack([q[:, :3], zero]), theta, A, np.vstack([v[:, :3], zero]), omega)

@@ -18,7 +18,7 @@ import nivel
 from nivel.analysis.plan.plan import methods_of
 from nivel.analysis.plan.settings import complete
 from nivel.analysis.run.dynamics import march
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.flexible.body.body_file import write_body
 from nivel.flexible.model.model_file import parse_model
 from nivel.flexible.reduce import reduce_model

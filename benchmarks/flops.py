@@ -29,7 +29,7 @@ import nivel
 from chain import chain
 from nivel.analysis.plan.plan import methods_of
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from part import measure
 
 SIZE, ROUNDS = 1000, 15

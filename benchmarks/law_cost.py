@@ -18,7 +18,7 @@ from nivel import Body, MachineRecord, SimulationSettings, SpringDamper
 from nivel.analysis.plan.plan import methods_of
 from nivel.analysis.plan.settings import complete
 from nivel.analysis.run.dynamics import march
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.machine.core.marker import Marker
 from nivel.system.laws.laws import law_address
 

@@ -15,7 +15,7 @@ import numpy as np
 
 import nivel
 from nivel.analysis.plan.plan import methods_of
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.kernels.output.observe import accept, observe
 from part import REPEATS, measure, part
 

@@ -13,12 +13,9 @@ from pydantic.fields import FieldInfo
 from nivel import methods
 from nivel.machine.core.record import Record
 from nivel.machine.given import Shown
+from nivel.machine.settings.analyses import InverseSettings, KinematicsSettings, LineariseSettings, StaticsSettings
 from nivel.machine.settings.compare import COMMON, Axes
-from nivel.machine.settings.inverse import InverseSettings
-from nivel.machine.settings.kinematics import KinematicsSettings
-from nivel.machine.settings.linearise import LineariseSettings
 from nivel.machine.settings.run import ENDLESS, SimulationSettings
-from nivel.machine.settings.statics import StaticsSettings
 from nivel.machine.settings.sweep import SweepSettings
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import Quantity

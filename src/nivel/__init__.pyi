@@ -45,7 +45,6 @@ from nivel.errors import ModelError as ModelError
 from nivel.errors import NivelError as NivelError
 from nivel.errors import SolveError as SolveError
 from nivel.live.opening import export_page as export_page
-from nivel.machine.assembly_settings import AssemblySettings as AssemblySettings
 from nivel.machine.bodies.body import Body as Body
 from nivel.machine.control.block import Block as Block
 from nivel.machine.core.marker import Marker as Marker
@@ -53,6 +52,7 @@ from nivel.machine.laws.time_function import Expression as Expression
 from nivel.machine.laws.time_function import PythonLaw as PythonLaw
 from nivel.machine.laws.time_function import Table as Table
 from nivel.machine.machine_record import MachineRecord as MachineRecord
+from nivel.machine.settings.run import AssemblySettings as AssemblySettings
 from nivel.machine.settings.run import Baumgarte as Baumgarte
 from nivel.machine.settings.run import SimulationSettings as SimulationSettings
 from nivel.machine.signals.event import Event as Event

@@ -23,13 +23,12 @@ from nivel.errors import Fault, ModelError, refuse
 from nivel.files.reader import Origin, parse_machine, read_text
 from nivel.files.values import outside_paths
 from nivel.lazy import nivel, numpy, xarray
-from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.bodies.body import Body
 from nivel.machine.control.block import Block
 from nivel.machine.core.marker import Marker
 from nivel.machine.laws.time_function import Table
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.run import SimulationSettings
+from nivel.machine.settings.run import AssemblySettings, SimulationSettings
 from nivel.machine.signals.event import Event
 from nivel.machine.signals.input import Input
 from nivel.machine.signals.sensor import Sensor
@@ -682,7 +681,7 @@ class Machine(Model):
         }
         chosen_duration = settings.get("duration") is not None
         asked = nivel.machine.settings.values.settings_of(
-            nivel.machine.settings.statics.StaticsSettings, "statics", own | _given(settings)
+            nivel.machine.settings.analyses.StaticsSettings, "statics", own | _given(settings)
         )
         neutral, chosen = nivel.analysis.statics.free_coordinates.for_statics(self.record, asked)
         with self._faults_in_file():
@@ -717,14 +716,14 @@ class Machine(Model):
         Raises ModelError where motions are not driven (nothing was computed), SolveError where the machine cannot go on: its `result` holds
         the positions until then, its message says what holds which driver.
         """
-        asked = nivel.machine.settings.kinematics.kinematics_settings(self.record, settings)
+        asked = nivel.machine.settings.analyses.kinematics_settings(self.record, settings)
         with self._faults_in_file():
             refuse(nivel.judge.before.refusals.faults_of(self.record, nivel.judge.before.analyses.OF_KINEMATICS))
             nivel.analysis.plan.compilation.build(
                 nivel.analysis.plan.compilation.assembly_entries(self.record), listener
             )
             machine, asked = nivel.analysis.kinematics.drive.driven(self.record, asked)
-            plain, chosen = nivel.analysis.plan.equations_only.neutral(machine, asked.coordinates)
+            plain, chosen = nivel.analysis.plan.plan.neutral(machine, asked.coordinates)
             methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", chosen)
         self._refuse_target(out, force)
         entries = nivel.analysis.plan.compilation.kinematics_entries(methods)
@@ -754,7 +753,7 @@ class Machine(Model):
         positions : so many each way, default 361. Raises ModelError where other motions are not driven.
         """
         most = positions or nivel.machine.settings.values.POSITIONS
-        settings = nivel.machine.settings.kinematics.kinematics_settings(
+        settings = nivel.machine.settings.analyses.kinematics_settings(
             self.record,
             {"drive": coordinate, "end": 0.0, "positions": most, "coordinates": coordinates},
         )
@@ -783,9 +782,7 @@ class Machine(Model):
 
         Raises ModelError where more motions are free, or none; SolveError where the positions cannot be followed.
         """
-        name = nivel.machine.settings.kinematics.kinematics_settings(
-            self.record, {"drive": coordinate, "end": 0.0}
-        ).drive
+        name = nivel.machine.settings.analyses.kinematics_settings(self.record, {"drive": coordinate, "end": 0.0}).drive
         with self._assembled(listener):
             return nivel.analysis.kinematics.continuation.configuration_curve(self.record, name)
 
@@ -804,7 +801,7 @@ class Machine(Model):
         Raises ModelError (nothing was computed), SolveError where the drivers' motion cannot be reached.
         """
         asked = nivel.machine.settings.values.settings_of(
-            nivel.machine.settings.inverse.InverseSettings, "inverse", settings
+            nivel.machine.settings.analyses.InverseSettings, "inverse", settings
         )
         motion, trajectory, positions = asked.motion, asked.trajectory, asked.positions
         with self._faults_in_file():
@@ -824,7 +821,7 @@ class Machine(Model):
                     record.drivers,
                     followed,
                 )
-            plain, _ = nivel.analysis.plan.equations_only.neutral(
+            plain, _ = nivel.analysis.plan.plan.neutral(
                 nivel.analysis.inverse.run.without_actuators(record, wanted), "absolute"
             )
             methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", "absolute")
@@ -849,10 +846,10 @@ class Machine(Model):
         them: `left_out` names them. Raises ModelError where the machine cannot be assembled.
         """
         with self._faults_in_file():
-            record, left_out = nivel.analysis.plan.equations_only.without_sticking(self.record)
+            record, left_out = nivel.analysis.plan.plan.without_sticking(self.record)
             faults = nivel.judge.before.analyses.not_smooth(record)
             refuse(each for each in faults if each.path.partition(".")[0] not in ("control", "states"))
-            plain, chosen = nivel.analysis.plan.equations_only.neutral(record, coordinates or "auto")
+            plain, chosen = nivel.analysis.plan.plan.neutral(record, coordinates or "auto")
             methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", chosen)
         with self._compiled(nivel.analysis.plan.compilation.linear_entries(methods), listener):
             return nivel.analysis.inverse.mechanics.Mechanics(
@@ -929,27 +926,27 @@ class Machine(Model):
         simulation = self.record.simulation
         own = {"coordinates": nivel.machine.settings.values.static_coordinates(simulation.coordinates)}
         own |= (
-            {"about": nivel.machine.settings.linearise.EQUILIBRIUM}
-            if simulation.start == nivel.machine.settings.linearise.EQUILIBRIUM
+            {"about": nivel.machine.settings.analyses.EQUILIBRIUM}
+            if simulation.start == nivel.machine.settings.analyses.EQUILIBRIUM
             else {}
         )
         asked = nivel.machine.settings.values.settings_of(
-            nivel.machine.settings.linearise.LineariseSettings, "linearise", own | _given(settings)
+            nivel.machine.settings.analyses.LineariseSettings, "linearise", own | _given(settings)
         )
-        at_rest = asked.about == nivel.machine.settings.linearise.EQUILIBRIUM
+        at_rest = asked.about == nivel.machine.settings.analyses.EQUILIBRIUM
         with self._faults_in_file():
             refuse(
                 nivel.judge.before.analyses.not_smooth(
                     self.record,
                     may_slide=asked.about
-                    not in (nivel.machine.settings.linearise.EQUILIBRIUM, nivel.machine.settings.linearise.ROTATION),
+                    not in (nivel.machine.settings.analyses.EQUILIBRIUM, nivel.machine.settings.analyses.ROTATION),
                 )
             )
             inputs = nivel.analysis.linearise.ports.opened(self.record, asked.inputs, asked.time)
-            plain, chosen = nivel.analysis.plan.equations_only.neutral(
+            plain, chosen = nivel.analysis.plan.plan.neutral(
                 inputs.machine,
                 asked.coordinates,
-                nivel.machine.settings.linearise.EQUILIBRIUM if at_rest else "as-given",
+                nivel.machine.settings.analyses.EQUILIBRIUM if at_rest else "as-given",
             )
             methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", chosen)
         entries = nivel.analysis.plan.compilation.linear_entries(methods)

@@ -59,7 +59,6 @@ import nivel.analysis.optimise.inputs
 import nivel.analysis.optimise.optimise
 import nivel.analysis.plan
 import nivel.analysis.plan.compilation
-import nivel.analysis.plan.equations_only
 import nivel.analysis.plan.plan
 import nivel.analysis.plan.settings
 import nivel.analysis.preparation
@@ -163,11 +162,8 @@ import nivel.machine.core
 import nivel.machine.core.orientation
 import nivel.machine.core.record
 import nivel.machine.settings
+import nivel.machine.settings.analyses
 import nivel.machine.settings.compare
-import nivel.machine.settings.inverse
-import nivel.machine.settings.kinematics
-import nivel.machine.settings.linearise
-import nivel.machine.settings.statics
 import nivel.machine.settings.sweep
 import nivel.machine.settings.values
 import nivel.machine.units

@@ -26,14 +26,12 @@ from nivel.files.values import elements_named, replaced, section_of_element, val
 from nivel.files.writer import write_machine
 from nivel.judge.before.unusual import remarks
 from nivel.lazy import dataclass, nivel, replace
-from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.bodies.body import Body
-from nivel.machine.changes import changed
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.named import Named, NamedValues
 from nivel.machine.core.record import Record, entry
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.run import SimulationSettings
+from nivel.machine.settings.run import AssemblySettings, SimulationSettings, changed
 from nivel.machine.signals.event import Event
 from nivel.machine.signals.input import Input
 from nivel.machine.signals.sensor import Sensor

@@ -11,7 +11,7 @@ from nivel.analysis.preparation import memory
 from nivel.analysis.preparation.memory import MachineMemory
 from nivel.analysis.preparation.parameters import UnfitError, numbers_of
 from nivel.analysis.run.dynamics import GOES_ON, start_loop
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.analysis.sweep.patched import PatchedRuns, learn
 from nivel.files import parse_machine
 from nivel.files.reader import Origin

@@ -10,7 +10,7 @@ from nivel.analysis.statics.newton import EquilibriumError, Iteration, equilibra
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
 from nivel.errors import ModelError, SolveError
-from nivel.machine.settings.statics import StaticsSettings
+from nivel.machine.settings.analyses import StaticsSettings
 from simulating import G, hinge, machine, slide, solid
 from test_statics_beams import steel_column
 from test_statics_closed_forms import chain, column, discrete_euler, four_bar, torsion_pendulum, truss

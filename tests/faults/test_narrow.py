@@ -8,7 +8,7 @@ import pytest
 import nivel
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.dynamics import march
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.integrate.loop.sink import Header
 from nivel.results.memory import Memory
 

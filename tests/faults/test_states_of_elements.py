@@ -8,7 +8,7 @@ import pytest
 from nivel import Machine
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.dynamics import march
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.files import parse_machine
 from nivel.judge.after.checks.states import look_at_sides
 from nivel.judge.after.subject import run_of

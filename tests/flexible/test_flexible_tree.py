@@ -18,7 +18,7 @@ from nivel.analysis.statics.newton import Iteration
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
 from nivel.flexible.body.body_file import read_body
-from nivel.machine.settings.statics import StaticsSettings
+from nivel.machine.settings.analyses import StaticsSettings
 from observing import assert_same_frame, observed, of_absolute
 from preparing import prepare
 from running import reference_run, run

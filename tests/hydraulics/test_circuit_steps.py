@@ -9,7 +9,7 @@ from hydraulic_zoo import machine_whose_commands_wait
 from nivel.analysis.assembly.implicit import ResidualOptions, find_tangent, with_residual
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.dynamics import start_loop
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.integrate.loop.run import BUDGET
 from nivel.kernels.core.status import BUDGET_SPENT, OK
 from nivel.kernels.record.record import NONE

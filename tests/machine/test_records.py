@@ -8,7 +8,7 @@ import pytest
 from nivel import Body, Expression, Joint, MachineRecord, Marker, PointForce, SimulationSettings, Table, Torque
 from nivel.errors import ModelError
 from nivel.machine.bodies.shape import Box, Cylinder, Sphere, Tube
-from nivel.machine.settings.statics import StaticsSettings
+from nivel.machine.settings.analyses import StaticsSettings
 
 BALL = {"mass": 1, "shape": Sphere(radius=0.1)}
 CRANK, ROD = Body(name="crank", **BALL), Body(name="rod", **BALL)

@@ -13,8 +13,8 @@ from nivel.elements.control import BLOCKS
 from nivel.elements.control.units import CBlock, FmuBlock, UserBlock
 from nivel.files import parse_machine
 from nivel.kernels.record import program
-from nivel.machine.control.laws import beyond, bounded_rate, limited
 from nivel.machine.control.order import parts_of
+from nivel.machine.control.part import beyond, bounded_rate, limited
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.laws.program import expression_program
 

@@ -15,7 +15,7 @@ from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.dynamics import Loop, start_loop
 from nivel.analysis.run.fitting import fitted
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.c_library.image import LINE, WORD, Image, UnknownAddressError
 from nivel.elements.control.units import UnitBlock
 from nivel.errors import Fault, ModelError

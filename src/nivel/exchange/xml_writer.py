@@ -12,8 +12,7 @@ from nivel.exchange.translation import Notes
 from nivel.files.mesh_file import stl_content
 from nivel.lazy import dataclass
 from nivel.machine.bodies.body import Body
-from nivel.machine.bodies.colour import digits_of
-from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Mesh, Shape, Sphere, Tube
+from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Mesh, Shape, Sphere, Tube, digits_of
 from nivel.machine.bodies.solids import axes_of, box_size, length, mesh_surface
 
 

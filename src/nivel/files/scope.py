@@ -28,7 +28,7 @@ from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.files.tyre_file import read_tyres
 from nivel.lazy import dataclass, nivel, replace
-from nivel.machine.control.problems import can_be_named
+from nivel.machine.control.order import can_be_named
 from nivel.machine.core.record import Record
 from nivel.machine.laws.named_function import resolve_functions
 from nivel.machine.machine_record import MachineRecord

@@ -13,7 +13,7 @@ from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.run.dynamics import Loop, start_loop
 from nivel.analysis.run.fitting import fitted
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.elements.control.units import UnitBlock
 from nivel.elements.forces.hand import Hand
 from nivel.errors import Fault, ModelError
@@ -24,9 +24,9 @@ from nivel.kernels.core.block import Handle
 from nivel.kernels.output.observe import observe
 from nivel.lazy import dataclass
 from nivel.live.shared import Sizes, arrays_of, put_back, taken
-from nivel.machine.changes import changed
 from nivel.machine.laws.time_function import Table
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.settings.run import changed
 from nivel.machine.signals.input import Input
 from nivel.machine.units.expression import Expression
 

@@ -9,7 +9,7 @@ such an annotation is the first of the three types, by which pydantic reads the 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Generic, TypeVar, dataclass_transform, get_args
+from typing import TYPE_CHECKING, Any, Final, Generic, TypeVar, dataclass_transform, get_args
 
 import pydantic
 from pydantic import BaseModel
@@ -158,3 +158,13 @@ TwoRecords = Given[tuple[Validated, Validated], tuple[Validated, Validated], Seq
 @dataclass_transform(kw_only_default=True, frozen_default=True, field_specifiers=(Field, pydantic.PrivateAttr))
 class RecordClass(ModelMetaclass):
     """The class of classes of records: tells the type checker that their fields are keywords, and never change."""
+
+
+DENSITY: Final = Usual(1.0, 23000.0, "kg/m^3", "7850 kg/m^3")
+SPEED: Final = Usual(0.0, 12e3, "m/s", "2 m/s")  # of what is launched; orbits are slower
+ANGULAR_SPEED: Final = Usual(0.0, 1e6, "rpm", "1500 rpm")  # of the fastest centrifuges
+SLIDING_SPEED: Final = Usual(0.0, 1000.0, "m/s")
+SIZE: Final = Usual(1e-6, 1e5, "m", "2 m")
+SOLID: Final = Usual(1e-7, 1e4, "m", "50 mm")
+POWER: Final = Usual(0.0, 1000.0, "MW")
+GRAVITY: Final = Usual(0.0, 300.0, "m/s^2", "[0, 0, -9.81]")

@@ -27,22 +27,20 @@ from nivel.elements.joints.couplings import Coupling
 from nivel.elements.joints.drivers import Driver
 from nivel.elements.joints.joint import Joint
 from nivel.lazy import nivel
-from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.point_masses import problems_of_points
 from nivel.machine.bodies.shape import Shape, Standing
 from nivel.machine.bodies.touching import Touching
-from nivel.machine.control.problems import problems_of_control
+from nivel.machine.control.order import problems_of_control
 from nivel.machine.core.checked import Checked, Problem, lines_of
 from nivel.machine.core.index import Index
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.orientation import matrix_from_euler_parameters
 from nivel.machine.core.placement import placement
 from nivel.machine.core.record import entry, restated
-from nivel.machine.core.usual import GRAVITY, SIZE
-from nivel.machine.given import Field, ManyNames, ManyRecords, OneRecord, Usual
+from nivel.machine.given import GRAVITY, SIZE, Field, ManyNames, ManyRecords, OneRecord, Usual
 from nivel.machine.laws.functions import MachineFunction, functions_of
-from nivel.machine.settings.run import SimulationSettings
+from nivel.machine.settings.run import AssemblySettings, SimulationSettings
 from nivel.machine.signals.event import Event
 from nivel.machine.signals.input import Input
 from nivel.machine.signals.sensor import Sensor

@@ -22,8 +22,7 @@ from nivel.elements.beams.segments import Segments, segments_of
 from nivel.elements.joints.on_beams import on_beams
 from nivel.flexible.body.body import Interface, ReducedBody
 from nivel.flexible.body.invariants import of_points
-from nivel.machine.bodies.body import Body
-from nivel.machine.bodies.flexibility import Flexibility
+from nivel.machine.bodies.body import Body, Flexibility
 from nivel.machine.bodies.inertia import Inertia
 from nivel.machine.core.orientation import Orientation, euler_parameters_from_matrix
 from nivel.machine.core.vectors import Array

@@ -33,7 +33,7 @@ from nivel.system.beam_tables import no_tangent, point_inertia, shared_mass
 from nivel.system.bodies import body_tables, given_poses, given_velocities, machine_size
 from nivel.system.builder import SystemBuilder
 from nivel.system.elimination.partition import no_partition
-from nivel.system.elimination.tree_tables import empty_tree
+from nivel.system.elimination.topology import empty_tree
 from nivel.system.flexible import no_flexible, no_modal_tree
 from nivel.system.implicit import no_newton, no_residual
 from nivel.system.joint_frames import refuse_unknown_interfaces

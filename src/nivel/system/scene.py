@@ -56,8 +56,7 @@ from nivel.files.joint_parts import rotors_of
 from nivel.flexible.body.body import moving_surface
 from nivel.lazy import nivel
 from nivel.machine.bodies.body import Body
-from nivel.machine.bodies.colour import digits_of
-from nivel.machine.bodies.shape import Box, Ellipsoid, Extrusion, Mesh, Shape, Sphere, Tube
+from nivel.machine.bodies.shape import Box, Ellipsoid, Extrusion, Mesh, Shape, Sphere, Tube, digits_of
 from nivel.machine.bodies.solids import box_size, length, mesh_surface
 from nivel.machine.bodies.surface import surface_text
 from nivel.machine.core.between import Between, BetweenMarkers

@@ -8,7 +8,7 @@ import pytest
 from linkages import change_point, folded_slider_crank, four_bar, jansen_leg
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.dynamics import march
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.integrate.loop.sink import Header
 from nivel.judge.after.checks import branches
 from nivel.results.memory import Memory

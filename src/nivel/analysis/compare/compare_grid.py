@@ -16,10 +16,9 @@ from nivel.analysis.progress.log import Listener
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.lazy import dataclass
-from nivel.machine.changes import changed
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.compare import Axes
-from nivel.machine.settings.run import SimulationSettings
+from nivel.machine.settings.run import SimulationSettings, changed
 from nivel.methods import chooses
 from nivel.results.comparison import Method
 

@@ -19,8 +19,8 @@ from nivel.analysis.run.simulate import run_in_memory
 from nivel.judge.after.report import assess, blindness
 from nivel.judge.after.subject import Run
 from nivel.lazy import asdict, dataclass, replace
-from nivel.machine.changes import changed
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.settings.run import changed
 from nivel.results.comparison import Reference
 from nivel.results.comparison_table import seconds
 from nivel.results.motion import Motion, common_frames, distance

@@ -23,7 +23,7 @@ from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.dynamics import Loop, march, start_loop
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.analysis.run.second_run import FINER, TENTH, refine, with_steps
 from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.integrate.loop.sink import Header

@@ -18,7 +18,7 @@ from nivel.elements.forces.friction import Friction
 from nivel.errors import Fault, ModelError, refuse
 from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.inverse import InverseSettings
+from nivel.machine.settings.analyses import InverseSettings
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
 from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, UnknownCoordinateError, resolve, unknown_name

@@ -19,7 +19,7 @@ from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Reach
 from nivel.kernels.output.observe import observe
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.kinematics import KinematicsSettings
+from nivel.machine.settings.analyses import KinematicsSettings
 from nivel.results.analyses.configuration_curve import ConfigurationCurve
 from nivel.results.analyses.mechanism import Range
 from nivel.results.result import Result

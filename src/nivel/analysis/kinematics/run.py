@@ -22,7 +22,7 @@ from nivel.analysis.progress.log import Listener
 from nivel.analysis.progress.pacing import terminable
 from nivel.analysis.run.dynamics import GOES_ON, RunOutcome, keep_last, march_in_chunks
 from nivel.analysis.run.history import start_history
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.analysis.run.probes import GOLDEN, Probes
 from nivel.errors import SolveError, refuse
 from nivel.integrate.facts import IntegratorFacts
@@ -42,7 +42,7 @@ from nivel.kernels.core.status import CONTRADICTION, DONE
 from nivel.lazy import dataclass, replace
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.kinematics import KinematicsSettings
+from nivel.machine.settings.analyses import KinematicsSettings
 from nivel.machine.settings.values import POSITIONS
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.tree import TIME

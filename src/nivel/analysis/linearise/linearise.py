@@ -16,7 +16,7 @@ from nivel.errors import ModelError, SolveError
 from nivel.judge.after.other_elements import other_elements
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import OtherVibrations, Sweep, Variant
-from nivel.machine.settings.linearise import LineariseSettings
+from nivel.machine.settings.analyses import LineariseSettings
 from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.analyses.linear_sweep import LinearSweep
 

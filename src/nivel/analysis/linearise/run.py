@@ -28,7 +28,7 @@ from nivel.judge.after.subject import Linearisation
 from nivel.judge.before.analyses import MOST, not_smooth
 from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.linearise import EQUILIBRIUM, ROTATION, LineariseSettings
+from nivel.machine.settings.analyses import EQUILIBRIUM, ROTATION, LineariseSettings
 from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.analyses.mode_motion import Posed
 from nivel.results.analyses.sampled_model import SampledModel

@@ -20,7 +20,7 @@ from nivel.errors import Fault, ModelError, refuse
 from nivel.extras import require
 from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
-from nivel.machine.study.search import SEARCH_METHODS
+from nivel.machine.study.study_record import SEARCH_METHODS
 from nivel.model import Model
 from nivel.words.wording import shown, unknown_word
 

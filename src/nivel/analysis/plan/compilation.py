@@ -27,7 +27,7 @@ from nivel.kernels.signals.c_function import output as c_output
 from nivel.kernels.signals.fmu import output as fmu_output
 from nivel.kernels.signals.functions import compute, rate_states, read_inputs
 from nivel.lazy import nivel, rich
-from nivel.machine.control.unit_output import CFacts
+from nivel.machine.control.part import CFacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FLEXIBLE, IMPLICIT_ACCELERATIONS, PATHS
 from nivel.native import library

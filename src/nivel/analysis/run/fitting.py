@@ -18,7 +18,7 @@ from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.log import Listener
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.elements.contacts.heap import spheres_between
 from nivel.elements.contacts.pairs import tangent_stiffness

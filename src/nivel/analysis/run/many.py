@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.run.fitting import fitted
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.analysis.run.stepping import Simulation, Snapshot
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.words.wording import shown

@@ -19,15 +19,15 @@ from numpy.typing import NDArray
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.implicit import ResidualOptions, with_residual
 from nivel.analysis.plan.plan import Methods, Plan
+from nivel.analysis.preparation import preparation
 from nivel.analysis.preparation.memory import Role, leaves
 from nivel.analysis.preparation.preparation import Prepared, arranged
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.dynamics import march
-from nivel.analysis.run.preparation import prepare
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.integrate.loop.run import ALL_STEPS, BUDGET, END, EVERY, FRAMES, LAST_FRAME, OPEN_LIMIT, TOLERANCE, Run
 from nivel.integrate.loop.sink import Header
-from nivel.lazy import dataclass
+from nivel.lazy import dataclass, nivel
 from nivel.native.entry import Entry
 from nivel.native.signature import BROKEN, IN_C, RESULT_IN_C
 from nivel.results.memory import Memory
@@ -247,3 +247,13 @@ def _found(array: NDArray[Any], kept: Sequence[NDArray[Any]], given: Sequence[ND
             part = np.ascontiguousarray(theirs).reshape(-1).view(np.uint8)[begin - first : begin - first + size]
             return part.view(array.dtype).reshape(array.shape)
     raise ModelError("the state is of another machine, or of other settings of the simulation")
+
+
+def prepare(methods: Methods) -> Prepared:
+    """Build and assemble the machine of these methods and put it into the coordinates of the run.
+
+    Raises ModelError as `nivel.analysis.preparation.preparation.prepare` does; SolveError where there is no equilibrium to start from.
+    """
+    if methods.machine.simulation.start != "equilibrium":
+        return preparation.prepare(methods)
+    return preparation.prepare(methods, equilibrium=nivel.analysis.statics.start.settled)

@@ -17,7 +17,7 @@ from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.progress.pacing import Follower, Leader, interruptible
 from nivel.analysis.run.dynamics import RunOutcome, march
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.sink import Header
 from nivel.judge.before.refusals import sampled_times

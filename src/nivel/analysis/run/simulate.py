@@ -23,7 +23,7 @@ from nivel.analysis.progress.log import Listener, Progress
 from nivel.analysis.progress.pacing import terminable
 from nivel.analysis.run.attempt import Attempt, Options, attempt, header_of
 from nivel.analysis.run.dynamics import march
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.analysis.run.second_run import TENTH, SecondRun, most_work
 from nivel.errors import ModelError, SolveError
 from nivel.integrate.catalogue import INTEGRATORS

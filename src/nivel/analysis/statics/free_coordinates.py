@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.analysis.plan.choice import choose_coordinates
-from nivel.analysis.plan.equations_only import with_smooth_contacts
+from nivel.analysis.plan.plan import with_smooth_contacts
 from nivel.elements.joints.drivers import Driver
 from nivel.errors import SolveError
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.statics import StaticsSettings
+from nivel.machine.settings.analyses import StaticsSettings
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.results.result import Result
 from nivel.system.system import Array

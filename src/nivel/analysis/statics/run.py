@@ -47,7 +47,7 @@ from nivel.judge.during.stop import broken_function
 from nivel.kernels.solve.saddle import LEFT_OUT
 from nivel.lazy import dataclass, field, replace
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.statics import StaticsSettings
+from nivel.machine.settings.analyses import StaticsSettings
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
 from nivel.results.frames.summary import Occurrence, to_json
 from nivel.results.memory import Memory

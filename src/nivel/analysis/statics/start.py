@@ -20,7 +20,7 @@ from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.statics import StaticsSettings
+from nivel.machine.settings.analyses import StaticsSettings
 from nivel.system.system import Array
 
 # A constraint that changes by more than this share of its scale in a second moves at the start.

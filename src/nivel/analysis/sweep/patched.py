@@ -21,8 +21,7 @@ from nivel.analysis.preparation.shared_loads import SharedLoads, are_open
 from nivel.analysis.run.attempt import header_of
 from nivel.analysis.run.dynamics import Loop, march, start_loop, taken_events
 from nivel.analysis.run.history import refer_energies
-from nivel.analysis.run.preparation import prepare
-from nivel.analysis.run.prepared_state import BoundEntry
+from nivel.analysis.run.prepared_state import BoundEntry, prepare
 from nivel.errors import NivelError
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import BUDGET, DONE_STEPS, FRAMES, STOPPED, Run

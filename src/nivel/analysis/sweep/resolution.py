@@ -17,9 +17,9 @@ from nivel.files.sources import beside
 from nivel.files.study_file import StudyFile
 from nivel.integrate.loop.sink import Header
 from nivel.lazy import dataclass
+from nivel.machine.settings.analyses import SETTINGS
 from nivel.machine.settings.values import settings_of
 from nivel.machine.study import AtEvent, EventTime, Output, PythonOutput, StudyParameter
-from nivel.machine.study.analyses import SETTINGS
 from nivel.machine.study.any_quantity import dimension_of, si
 from nivel.machine.study.parameter import Tolerance, Values
 from nivel.machine.units.dimension import symbol

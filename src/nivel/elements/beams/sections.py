@@ -16,9 +16,8 @@ from pydantic import BeforeValidator
 from nivel.lazy import dataclass
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import SectionLength
-from nivel.machine.core.usual import DENSITY
 from nivel.machine.core.vectors import Array
-from nivel.machine.given import Field, Maybe, OneNumber, ThreeNumbers, TwoNumbers
+from nivel.machine.given import DENSITY, Field, Maybe, OneNumber, ThreeNumbers, TwoNumbers
 from nivel.machine.units.quantity import Density, Length, Quantity, Scalar, listed
 from nivel.machine.units.six_by_six import (
     Diagonal,

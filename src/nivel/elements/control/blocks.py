@@ -10,10 +10,8 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator
 
 from nivel.elements.kind import Kind
-from nivel.machine.control.block import Block, Input, Matrix, Number, Numbers, Pair
-from nivel.machine.control.condition import Condition
-from nivel.machine.control.laws import beyond, limited
-from nivel.machine.control.part import Part
+from nivel.machine.control.block import Block, Condition, Input, Matrix, Number, Numbers, Pair
+from nivel.machine.control.part import Part, beyond, limited
 from nivel.machine.core.checked import Problem
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.table import Interpolation, Table

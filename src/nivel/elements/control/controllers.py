@@ -9,8 +9,7 @@ from typing import Literal
 from nivel.elements.control.blocks import refuse_order
 from nivel.elements.kind import Kind
 from nivel.machine.control.block import Block, Input, NotNegativeTime, Number, Pair, PositiveNumber
-from nivel.machine.control.laws import limited
-from nivel.machine.control.part import Part
+from nivel.machine.control.part import Part, limited
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.formula import linear

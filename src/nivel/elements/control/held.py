@@ -9,8 +9,7 @@ from typing import ClassVar, Literal
 
 from nivel.elements.control.blocks import OfInput
 from nivel.elements.kind import Kind
-from nivel.machine.control.block import MOST_DELAYED, Number, Pair, PositiveNumber
-from nivel.machine.control.condition import Condition
+from nivel.machine.control.block import MOST_DELAYED, Condition, Number, Pair, PositiveNumber
 from nivel.machine.control.part import VALUE, Part
 from nivel.machine.core.checked import Problem
 from nivel.machine.given import Field, Maybe

@@ -8,8 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator
 
 from nivel.elements.kind import Kind
-from nivel.machine.control.block import Block, Input, names_in
-from nivel.machine.control.condition import Condition
+from nivel.machine.control.block import Block, Condition, Input, names_in
 from nivel.machine.control.part import Part, PartFunction
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.record import Name, Record, entry, unknown_word

@@ -12,8 +12,7 @@ from pydantic import BeforeValidator, ValidationInfo
 
 from nivel.elements.kind import Kind
 from nivel.machine.control.block import Block, Input, Number, Numbers, names_in
-from nivel.machine.control.part import VALUE, Part
-from nivel.machine.control.unit_output import CFacts, FmuFacts, UnitFacts, UnitOutput
+from nivel.machine.control.part import VALUE, CFacts, FmuFacts, Part, UnitFacts, UnitOutput
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.record import Name, Record, entry
 from nivel.machine.given import Field, Given, OneNumber

@@ -17,8 +17,7 @@ from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.marker import TwoMarkers
 from nivel.machine.core.placement import angle_between
 from nivel.machine.core.record import BodyName, Name, Record, unknown_word
-from nivel.machine.core.usual import ANGULAR_SPEED, SLIDING_SPEED
-from nivel.machine.given import Field, Given, Maybe, OneRecord, TwoNames, TwoPlaces, Usual
+from nivel.machine.given import ANGULAR_SPEED, SLIDING_SPEED, Field, Given, Maybe, OneRecord, TwoNames, TwoPlaces, Usual
 from nivel.machine.units.quantity import Angle, AngularVelocity, Direction, Length, Position, PositiveLength, Velocity
 
 Motion = Literal["x", "y", "z", "rx", "ry", "rz"]

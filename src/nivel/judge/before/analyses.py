@@ -20,7 +20,7 @@ from nivel.machine.control.order import PartOf, parts_of
 from nivel.machine.core.element import ForceElement
 from nivel.machine.laws.symbols import find_in, follows_control, is_output
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.statics import StaticsSettings
+from nivel.machine.settings.analyses import StaticsSettings
 from nivel.system.beam_nodes import with_nodes
 from nivel.words.wording import first_of
 

@@ -14,7 +14,7 @@ from nivel.analysis.plan.beam_facts import BeamFacts, beam_facts
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.run.preparation import prepare
+from nivel.analysis.run.prepared_state import prepare
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
 from nivel.errors import SolveError

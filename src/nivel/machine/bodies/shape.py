@@ -8,20 +8,48 @@ centre is its origin.
 
 from __future__ import annotations
 
+import re
 from abc import abstractmethod
 from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
 
 import numpy as np
-from pydantic import BeforeValidator, model_validator
+from pydantic import BeforeValidator, WithJsonSchema, model_validator
 
-from nivel.machine.bodies.colour import Colour
 from nivel.machine.bodies.polygon import bad_outline
 from nivel.machine.bodies.surface import surface_arrays
 from nivel.machine.core.orientation import Orientation
 from nivel.machine.core.record import Record
-from nivel.machine.core.usual import SOLID
-from nivel.machine.given import Field, ManyCorners, Maybe, OneRecord, ThreeNumbers, TwoNumbers
-from nivel.machine.units.quantity import Length, Position, PositiveLength, Whole, fault, listed
+from nivel.machine.given import SOLID, Field, ManyCorners, Maybe, OneRecord, ThreeNumbers, TwoNumbers
+from nivel.machine.units.quantity import Length, Position, PositiveLength, Whole, fault, listed, shown
+
+COLOURS: Final = {
+    "yellow": "#e3b02b",
+    "orange": "#d9772f",
+    "red": "#b8473c",
+    "blue": "#3f6ea6",
+    "green": "#5d8f62",
+    "white": "#e6e9ec",
+    "silver": "#b7bec6",
+    "grey": "#858e98",
+    "dark": "#3d444c",
+    "brown": "#8a6a4c",
+}
+_DIGITS: Final = re.compile(r"#[0-9a-fA-F]{6}")
+
+
+def _colour(value: Any) -> str:
+    if isinstance(value, str) and (value in COLOURS or _DIGITS.fullmatch(value)):
+        return value.lower()
+    raise fault(f"a colour was expected, one of {', '.join(COLOURS)} or a text such as '#e3b02b'; got {shown(value)}")
+
+
+Colour = Annotated[str, BeforeValidator(_colour), WithJsonSchema({"type": "string"})]
+
+
+def digits_of(colour: str) -> str:
+    """The colour as `#rrggbb`."""
+    return COLOURS.get(colour, colour)
+
 
 Along = Literal["x", "y", "z"]
 MOST_PARTS: Final = 64  # convex parts of a mesh

@@ -1,14 +1,15 @@
-"""Base of all blocks of a control."""
+"""Base of all blocks of a control, and their inputs: signals, numbers and conditions."""
 
 from __future__ import annotations
 
 import math
+import re
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final
 
-from pydantic import BeforeValidator
+from pydantic import BeforeValidator, WithJsonSchema
 
 from nivel.machine.control.part import VALUE, Part, PartFunction
 from nivel.machine.core.checked import Checked, Problem, superfluous
@@ -17,7 +18,7 @@ from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, ManyNumbers, ManyRows, Maybe, OneNumber, TwoNumbers
 from nivel.machine.laws.time_function import Measured
 from nivel.machine.units.formula import linear
-from nivel.machine.units.quantity import ANY, Duration, Quantity, listed, of_one_kind
+from nivel.machine.units.quantity import ANY, Duration, Quantity, fault, listed, of_one_kind, shown
 
 Input = Annotated[Measured, BeforeValidator(of_one_kind)]
 Number = Annotated[OneNumber, Quantity(ANY)]
@@ -141,3 +142,30 @@ class Block(Checked):
             count = self.latency / self.sample_time
             message = f"the latency is {count:.4g} samples; up to {MOST_DELAYED} are taken: take a longer `sample_time`"
             yield Problem(("latency",), message)
+
+
+_COMPARISON: Final = re.compile(r"(<=|>=|==|!=|<|>|=)")
+
+
+def _difference(value: Any) -> Any:
+    """`a > b` and `b < a` as `a - (b)`."""
+    if not isinstance(value, str):
+        return value
+    left, *rest = _COMPARISON.split(value)
+    if not rest:
+        return value
+    if len(rest) > 2:
+        raise fault(f"one comparison was expected, got {shown(value)}; several stand in a list")
+    sign, right = rest
+    if "=" in sign.replace("<=", "").replace(">=", "") or sign == "!=":
+        raise fault(f"`{sign}` is hardly ever true of numbers that vary; write `>` or `<`: {shown(value)}")
+    if not left.strip() or not right.strip():
+        raise fault(f"a comparison has two sides: {shown(value)}")
+    greater, less = (left, right) if sign[0] == ">" else (right, left)
+    return f"({greater.strip()}) - ({less.strip()})"
+
+
+# positive where the condition holds
+Condition = Annotated[
+    Input, BeforeValidator(_difference), WithJsonSchema({"anyOf": [{"type": "string"}, {"type": "number"}]})
+]

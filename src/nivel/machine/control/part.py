@@ -5,9 +5,54 @@ from __future__ import annotations
 from typing import Literal
 
 from nivel.lazy import dataclass
-from nivel.machine.control.unit_output import UnitOutput
 from nivel.machine.laws.time_function import TimeFunction, signals_of
-from nivel.machine.units.formula import Formula, LinearFunction
+from nivel.machine.units.formula import Formula, LinearFunction, formula
+from nivel.machine.units.tree import TIME
+
+
+@dataclass(frozen=True)
+class UnitFacts:
+    """A unit as a block uses it: name of the block, file of the unit, and its variables that are inputs and outputs.
+
+    own_process, time_limit : whether it runs in a process of its own, and how long [s] a call may take there.
+    """
+
+    block: str
+    file: str
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    own_process: bool
+    time_limit: float
+
+
+@dataclass(frozen=True)
+class FmuFacts(UnitFacts):
+    """An FMU, with values of its parameters."""
+
+    parameters: tuple[tuple[str, float], ...] = ()
+
+
+@dataclass(frozen=True)
+class CFacts(UnitFacts):
+    """A C function, with its name and the start of its state."""
+
+    function: str = ""
+    state: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class UnitOutput:
+    """The value of one output of a unit after a sample. inputs : paths of the signals that it is called with."""
+
+    facts: UnitFacts
+    number: int
+    inputs: tuple[str, ...]
+
+    @property
+    def signals(self) -> tuple[str, ...]:
+        """The paths of the signals that it depends on, each once."""
+        return tuple(dict.fromkeys(path for path in self.inputs if path != TIME))
+
 
 Role = Literal["signal", "state", "sample", "memory"]
 
@@ -40,3 +85,19 @@ class Part:
     offset: float = 0.0
     holds: bool = False
     key: str = ""
+
+
+def limited(value: str, limits: tuple[float, float]) -> Formula:
+    """The value, at least the lower and at most the upper limit."""
+    return formula("min(max(value, lower), upper)", value=value, lower=limits[0], upper=limits[1])
+
+
+def beyond(value: str, band: tuple[float, float]) -> Formula:
+    """How far the value is outside of a band; zero inside."""
+    return formula("value - min(max(value, lower), upper)", value=value, lower=band[0], upper=band[1])
+
+
+def bounded_rate(rate: str, value: str, limits: tuple[float, float]) -> Formula:
+    """The rate, or zero where it would lead a value at a limit beyond it."""
+    text = "if(value >= upper and rate > 0 or value <= lower and rate < 0, 0, rate)"
+    return formula(text, rate=rate, value=value, lower=limits[0], upper=limits[1])

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, NamedTuple
 
 from nivel.machine.core.checked import Checked
 from nivel.machine.core.record import Name
-from nivel.machine.core.usual import POWER
-from nivel.machine.given import Usual
+from nivel.machine.given import POWER, Usual
 
 if TYPE_CHECKING:
     from nivel.machine.machine_record import MachineRecord

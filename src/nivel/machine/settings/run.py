@@ -1,4 +1,4 @@
-"""Settings of the simulation of a machine."""
+"""Settings of the simulation of a machine and of its assembly."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from pydantic import ValidationInfo, field_validator
 
 from nivel import methods
 from nivel.machine.core.checked import Checked, Problem
+from nivel.machine.core.coefficient import NotNegative
 from nivel.machine.core.record import Record
 from nivel.machine.given import Field, Given, ManyNames, Maybe, OneRecord
-from nivel.machine.units.quantity import Duration, Rate, Real, Whole, fault
+from nivel.machine.units.quantity import Angle, Duration, PositiveLength, Rate, Real, Whole, fault
 from nivel.machine.uses.coordinate_reference import CoordinateReference
 
 Tolerance = Annotated[Real, Field(gt=0.0, lt=1.0)]
@@ -219,3 +220,38 @@ class SimulationSettings(Checked):
             if each.factor is not None and each.alpha is not None:
                 messages.append(f"`{name}` takes `factor` or `alpha`, not both")
         yield from (Problem((), message) for message in messages)
+
+
+class AssemblySettings(Record):
+    """What the assembly may do to close the joints."""
+
+    largest_gap: Maybe[PositiveLength] = Field(
+        default=None,
+        description="by which joints may be open as given; absent, a tenth of the size of the machine",
+    )
+    parallel: Annotated[Angle, NotNegative] = Field(
+        default=1e-6,
+        description="axes of joints that differ by no more, as placed, are taken as parallel: those of an export with six digits are",
+    )
+
+
+def changed(settings: SimulationSettings, changes: Mapping[str, Any]) -> SimulationSettings:
+    """`settings` with `changes`, of `cut` also a single name; what belongs to a method that is replaced is left behind,
+    unless it is among the changes itself.
+
+    Raises ModelError where the words are not known or the numbers do not fit together.
+    """
+    changes = dict(changes)
+    if isinstance(changes.get("cut"), str):
+        changes["cut"] = (changes["cut"],)
+    words = {name: each for name, each in changes.items() if isinstance(each, str)}  # anything else is refused below
+    # own Baumgarte coefficients belong to the stabilisation they were given with
+    if words.get("stabilisation", "baumgarte") != "baumgarte" and settings.baumgarte is not None:
+        changes.setdefault("baumgarte", None)
+    # velocities that are kept as unknowns belong to independent coordinates
+    if words.get("coordinates", "independent") not in ("auto", "independent") and settings.independent:
+        changes.setdefault("independent", ())
+    # rotation coordinates belong to lagrange in absolute coordinates
+    if (words.get("formulation", "lagrange"), words.get("coordinates", "absolute")) != ("lagrange", "absolute"):
+        changes.setdefault("rotations", "euler-parameters")
+    return settings.replace(**changes)

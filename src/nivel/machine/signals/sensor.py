@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Final
 
-from pydantic import BeforeValidator, WithJsonSchema
+from pydantic import BeforeValidator, ValidationInfo, WithJsonSchema
 
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.marker import TwoMarkers
@@ -13,9 +13,56 @@ from nivel.machine.core.orientation import AxisSequence
 from nivel.machine.core.record import Name, unknown_word
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.time_function import Measured
-from nivel.machine.shown_number import ShownNumber
-from nivel.machine.units.quantity import fault, listed, shown
+from nivel.machine.units.dimension import without_angle
+from nivel.machine.units.measure import measure
+from nivel.machine.units.quantity import (
+    ANY,
+    constant_tree,
+    expression_fault,
+    fault,
+    listed,
+    parameters_of,
+    read_quantity,
+    reported,
+    shown,
+)
+from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Parameters
 from nivel.machine.uses.coordinate_reference import CoordinateReference
+
+
+def _read(value: Any, info: ValidationInfo) -> float:
+    parameters, units = parameters_of(info), info.data.get("units", "")
+    try:
+        number = read_quantity(value, ANY, parameters)
+        if not isinstance(value, str) or not units or measure(constant_tree(value, parameters)) is None:
+            return number
+        return number / _unit_of(value, units, parameters)
+    except FaultyParameterError:
+        raise reported() from None
+    except ExpressionError as problem:
+        raise expression_fault(problem, value) from None
+
+
+def _unit_of(text: str, units: str, parameters: Parameters) -> float:
+    """`units` in SI, which must measure what the quantity `text` does.
+
+    Raises ExpressionError.
+    """
+    try:
+        its, unit = measure(constant_tree(f"1 {units}", {})), read_quantity(f"1 {units}", ANY, {})
+    except ExpressionError:
+        raise ExpressionError(f"the sensor is in `{units}`, which is no unit; write a plain number") from None
+    given = measure(constant_tree(text, parameters))
+    if its is None or given is None or without_angle(its) != without_angle(given):
+        raise ExpressionError(f"the sensor is in `{units}`, which `{text.strip()}` is not")
+    return unit
+
+
+ShownNumber = Annotated[
+    float, BeforeValidator(_read), WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "string"}]})
+]
+"""A plain number is in the units of the sensor; a text with a unit is converted to them."""
+
 
 MARKER_QUANTITIES: Final = (
     "position",

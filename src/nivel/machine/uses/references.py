@@ -22,7 +22,7 @@ __all__ = ["SECTIONS", "reference_faults"]
 Faults = Iterator[tuple[Place, str]]
 
 WITH_ROWS: Final = ("joints", "couplings", "drivers")  # their rows are called NAME.…, so they share their names
-# keys of blocks that may use symbols; conditions are looked at in `nivel.machine.control.problems`
+# keys of blocks that may use symbols; conditions are looked at in `nivel.machine.control.order`
 CONTROL_KEYS: Final = (
     "value",
     "input",

@@ -12,8 +12,7 @@ from nivel.kernels.record.function import CODE, CONSTANT, HELD, LINEAR, NUMBER, 
 from nivel.kernels.record.program import run
 from nivel.kernels.record.record import Functions
 from nivel.lazy import dataclass, field
-from nivel.machine.control.part import PartFunction
-from nivel.machine.control.unit_output import UnitOutput
+from nivel.machine.control.part import PartFunction, UnitOutput
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.units.expression import Expression

@@ -21,7 +21,7 @@ from nivel.kernels.core.block import Handle
 from nivel.kernels.record.hook import Family
 from nivel.kernels.signals import c_function as kernel
 from nivel.kernels.signals.c_function import CFunction
-from nivel.machine.control.unit_output import CFacts
+from nivel.machine.control.part import CFacts
 from nivel.native import store
 from nivel.system.signals.foreign import Environment, guard_exit, keeps_environment
 

@@ -22,7 +22,7 @@ from nivel.kernels.core.block import Handle
 from nivel.kernels.record.hook import Family
 from nivel.kernels.signals import fmu as kernel
 from nivel.kernels.signals.fmu import Fmu
-from nivel.machine.control.unit_output import FmuFacts
+from nivel.machine.control.part import FmuFacts
 from nivel.system.signals.foreign import Environment, guard_exit, keeps_environment
 
 MOST_MESSAGES = 20

@@ -22,7 +22,7 @@ from nivel.kernels.core.block import Handle
 from nivel.kernels.record.hook import Family
 from nivel.kernels.signals import fmu as kernel
 from nivel.kernels.signals.fmu import Fmu
-from nivel.machine.control.unit_output import CFacts, UnitFacts
+from nivel.machine.control.part import CFacts, UnitFacts
 from nivel.native.workers import python
 
 LONGEST_START = 60.0  # s that a process may take to begin

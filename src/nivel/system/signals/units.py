@@ -7,7 +7,7 @@ from typing import Any, Protocol
 from nivel.kernels.core.block import Handle
 from nivel.kernels.record.hook import Family
 from nivel.lazy import nivel
-from nivel.machine.control.unit_output import CFacts, FmuFacts, UnitFacts
+from nivel.machine.control.part import CFacts, FmuFacts, UnitFacts
 
 
 class Unit(Protocol):

@@ -23,8 +23,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.system.elimination.elimination import plan
-from nivel.system.elimination.topology import FREE, Edge, SpanningTree, spanning_tree
-from nivel.system.elimination.tree_tables import empty_tree
+from nivel.system.elimination.topology import FREE, Edge, SpanningTree, empty_tree, spanning_tree
 from nivel.system.states.joint_start import Bent, Node, Poses, carried_frames, joint_start, poses
 from nivel.system.states.joint_start import Frames as OwnFrames
 from nivel.system.states.tree_nodes import (

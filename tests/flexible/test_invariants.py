@@ -14,7 +14,8 @@ from flexible_reference import (
 )
 from models import bar, block
 from needing import needs
-from nivel.flexible.body.invariants import invariants, of_points, tilde
+from nivel.flexible.body.invariants import of_points, tilde
+from nivel.flexible.body.mass_invariants import invariants
 from nivel.flexible.model.model import PointMass, lumped
 from nivel.flexible.model.model_file import parse_model
 from nivel.flexible.reduce import source_model

@@ -12,12 +12,9 @@ from nivel.files.placed_bodies import placed_beam, placed_body, placed_joint
 from nivel.files.placed_forces import placed_ends, placed_force
 from nivel.files.placement import AXIAL_Z, POLAR_Z, Placement, Scene
 from nivel.files.substitution import NotRepresentableError, negative
-from nivel.machine.control.block import Block
 from nivel.machine.core.between import Ends
 from nivel.machine.core.record import Record, entry
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table
-from nivel.machine.signals.event import Event
-from nivel.machine.signals.sensor import Sensor
 from nivel.machine.signals.state import State
 
 
@@ -59,11 +56,11 @@ def placed(elements: Elements, placing: Placement) -> dict[str, tuple[Record, ..
         "forces": lambda force: placed_force(force, scene),
         "fluids": lambda fluid: fluid,
         "hydraulics": lambda component: placed_component(component, scene),
-        "sensors": lambda sensor: placed_sensor(sensor, scene),
+        "sensors": lambda sensor: sensor if sensor.value is None else sensor.replace(value=scene.varied(sensor.value)),
         "inputs": lambda each: each,
         "states": lambda state: placed_state(state, scene),
-        "control": lambda block: placed_block(block, scene),
-        "events": lambda event: placed_event(event, scene),
+        "control": scene.followed,
+        "events": lambda event: event.replace(when=scene.varied(event.when)),
     }
     made = {section: tuple(_by(rules[section], record) for record in elements[section]) for section in elements}
     made["markers"] = (*made["markers"], *scene.extra.values())
@@ -116,14 +113,6 @@ def placed_driver(driver: Driver, scene: Scene) -> Driver:
     return driver.replace(relative_to=scene.ground_frame(kept) if reference is None else scene.variant(reference, kept))
 
 
-def placed_sensor(sensor: Sensor, scene: Scene) -> Sensor:
-    """`sensor` in the placed part. Of a marker without `relative_to` it shows what is global in the whole machine.
-
-    Raises NotRepresentableError.
-    """
-    return sensor if sensor.value is None else sensor.replace(value=scene.varied(sensor.value))
-
-
 def placed_state(state: State, scene: Scene) -> State:
     """`state` in the placed part: it has the value that it would have in the part.
 
@@ -131,19 +120,3 @@ def placed_state(state: State, scene: Scene) -> State:
     """
     name = "rate" if state.rate is not None else "update"
     return state.replace(**{name: scene.varied(getattr(state, name))})
-
-
-def placed_block(block: Block, scene: Scene) -> Block:
-    """`block` of a control in the placed part: it computes what it would in the part.
-
-    Raises NotRepresentableError.
-    """
-    return scene.followed(block)
-
-
-def placed_event(event: Event, scene: Scene) -> Event:
-    """`event` in the placed part: it comes when it would in the part.
-
-    Raises NotRepresentableError.
-    """
-    return event.replace(when=scene.varied(event.when))

@@ -175,7 +175,11 @@ def _on_coordinate(force: JointSpringDamper | Motor | Servo | Stop | Friction, s
                 deflections, efforts = ([-each + 0.0 for each in reversed(column)] for column in force.table.points)
                 changes["table"] = force.table.replace(deflections=deflections, efforts=efforts)
             if force.law is not None:
-                changes = {"law": negative(substituted_locals(changes["law"]))}
+                changes = {
+                    "law": negative(
+                        substituted(changes["law"], lambda path: Linear(((-1.0, path),)), local=("value", "rate"))
+                    )
+                }
         case Stop():
             changes |= {
                 "lower": None if force.upper is None else -force.upper + 0.0,
@@ -210,15 +214,6 @@ def _of_belt(force: BeltDrive, scene: Scene) -> Changes:
 def _of_brake(force: Brake | TransmissionLoss, scene: Scene) -> Changes:
     """Friction acts alike both ways."""
     return {name: scene.varied(value) for name, value in force if isinstance(value, _FUNCTIONS)}
-
-
-def substituted_locals(law: TimeFunction) -> TimeFunction:
-    """`law` of a coordinate, with the coordinate's `value` and `rate` counted the other way."""
-    return substituted(law, _other_way, local=("value", "rate"))
-
-
-def _other_way(path: str) -> Linear:
-    return Linear(((-1.0, path),))
 
 
 def _varied(force: Record, scene: Scene, *fields: str) -> Changes:

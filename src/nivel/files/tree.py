@@ -208,7 +208,9 @@ class _Reader:
                 self.tree.faults.append(Fault(self.tree.file, *place, words, message))
                 continue
             self.tree.keys[(*path, key)] = place
-            self.tree.places[(*path, key)] = _place_of_value(key_node, value_node)
+            self.tree.places[(*path, key)] = (
+                value_node.place if value_node.place.line == key_node.place.line else key_node.place
+            )
             data[key] = self.read(value_node, (*path, key))
         return data
 
@@ -237,11 +239,6 @@ class _Reader:
 
     def report(self, path: Path, message: str) -> None:
         self.tree.faults.append(self.tree.fault(path, message))
-
-
-def _place_of_value(key: Node, value: Node) -> Place:
-    """Where a reader looks: at the value if it starts in the line of its key, else at the key."""
-    return value.place if value.place.line == key.place.line else key.place
 
 
 def _integer(text: str) -> int | float:

@@ -10,7 +10,7 @@ import numpy as np
 
 from nivel.errors import Fault, ModelError, refuse
 from nivel.flexible.body.body import Interface, LeftOut, ReducedBody, StressModes
-from nivel.flexible.body.invariants import beside_kept, invariants, left_out
+from nivel.flexible.body.mass_invariants import beside_kept, invariants, left_out
 from nivel.flexible.checks import checks
 from nivel.flexible.checks.findings import Findings, findings_of, mesh_error
 from nivel.flexible.model.frame import frame_model

@@ -78,7 +78,7 @@ def _refuse_lost_inertia(machine: MachineRecord, mass: Array, centre: Array, ine
         elif beam is None and not least > 0.0:
             message = f"its moments of inertia are {', '.join(f'{J:.3g}' for J in moments[k])} kg m²; all have to be greater than zero"
             faults.setdefault(body.name, Fault.at(f"bodies.{body.name}", message))
-        elif (about_frame := _about_frame(mass[k], centre[k])) * ROUND_OFF > _across(centre[k], inertia[k]):
+        elif (about_frame := float(mass[k] * (centre[k] @ centre[k]))) * ROUND_OFF > _across(centre[k], inertia[k]):
             owner = f"bodies.{body.name}" if beam is None else f"beams.{beam.name}"
             message = (
                 f"its centre of mass is {np.linalg.norm(centre[k]):.3g} m from its frame: its moment of inertia {moments[k, 0]:.3g} kg m² "
@@ -88,11 +88,6 @@ def _refuse_lost_inertia(machine: MachineRecord, mass: Array, centre: Array, ine
             faults.setdefault(body.name, Fault.at(owner, message))
     if faults:
         raise ModelError(list(faults.values()))
-
-
-def _about_frame(mass: float, centre: Array) -> float:
-    """Moment of inertia of a point mass about the frame [kg m²]."""
-    return float(mass * (centre @ centre))
 
 
 def _across(centre: Array, inertia: Array) -> float:

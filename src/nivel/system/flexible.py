@@ -259,11 +259,6 @@ def _stiffening(bending: Sequence[Bending], frames: Sequence[Frame], n: int) -> 
     return {table: 0.5 * (value + np.swapaxes(value, -1, -2)) for table, value in out.items()}
 
 
-def modal_blocks(count: int) -> int:
-    """Blocks of six that so many modes take in the saddle."""
-    return -(-count // 6)
-
-
 def first_modal_rows(bodies: int, bending: Sequence[Bending]) -> NDArray[np.int64]:
     """Row of z where the modes of each flexible body begin, then one past the last."""
-    return bodies + np.cumsum([0, *(modal_blocks(len(each.reduced.eigenvalues)) for each in bending)])
+    return bodies + np.cumsum([0, *(-(-len(each.reduced.eigenvalues) // 6) for each in bending)])

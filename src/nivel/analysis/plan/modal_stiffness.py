@@ -141,15 +141,10 @@ def integrator_of(machine: MachineRecord, coordinates: str) -> IntegratorFacts:
     if by_circuits and goes_by_circuits(machine, coordinates):
         return by_circuits
     by_modes = step_for(name, "modes")
-    return by_modes if by_modes and goes_by_modes(machine, coordinates) else INTEGRATORS[name]
+    return by_modes if by_modes and coordinates == "relative" and only_modes_are_stiff(machine) else INTEGRATORS[name]
 
 
 def goes_by_circuits(machine: MachineRecord, coordinates: str) -> bool:
     """Whether a machine is one for integrators that take derivatives of circuits by hand."""
     formulation = machine.simulation.formulation
     return coordinates == "relative" and formulation == "newton-euler" and only_circuits_are_stiff(machine)
-
-
-def goes_by_modes(machine: MachineRecord, coordinates: str) -> bool:
-    """Whether a machine is one for integrators that take derivatives of modes alone."""
-    return coordinates == "relative" and only_modes_are_stiff(machine)

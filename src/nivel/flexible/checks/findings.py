@@ -14,7 +14,8 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.flexible.body.body import MeshError
-from nivel.flexible.body.invariants import Invariants, invariants
+from nivel.flexible.body.invariants import Invariants
+from nivel.flexible.body.mass_invariants import invariants
 from nivel.flexible.checks.checks import DIGITS, ONE_POINT, digits
 from nivel.flexible.model.frame import frame_model
 from nivel.flexible.model.model import AXES, Array, FiniteElementModel

@@ -307,7 +307,7 @@ def _model(
         if node not in inside:
             freedoms[place[node], axis - 1] = row
     position = mesh.places[np.searchsorted(mesh.numbers, used)] * length
-    scale = _row_lengths(read.labels, length)
+    scale = sp.diags_array(np.where(np.array([axis for _, axis in read.labels]) > 3, length, 1.0))
     # K in N/m for translations: mass/s²; a turn brings a length
     K = scale @ read.stiffness.ordered(read.labels) @ scale * mass_unit
     M = scale @ read.mass.ordered(read.labels) @ scale * mass_unit
@@ -364,11 +364,6 @@ def _with_solids(
             located.fault(("matrices", "nodes"), f"{bad}: their nodes are in another order, or a node was moved")
         )
     return with_elements(model, mesh, blocks, place, mass_unit / length, length)  # a pressure is mass / (length s²)
-
-
-def _row_lengths(labels: tuple[Label, ...], length: float) -> Sparse:
-    """Diagonal: the unit of length for rows of turns, one for translations; forces are mass × length / s² on both sides."""
-    return sp.diags_array(np.where(np.array([axis for _, axis in labels]) > 3, length, 1.0))
 
 
 def _check_matrices(located: Located, K: Sparse, M: Sparse, labels: tuple[Label, ...]) -> None:

@@ -78,11 +78,6 @@ def _powers(allowed) -> Whole:
     return np.array([each for each in product(range(3), repeat=3) if allowed(*each)])
 
 
-def _superlinear(*powers: int) -> int:
-    """Degree of a monomial without its linear factors."""
-    return sum(power for power in powers if power > 1)
-
-
 EDGES: Final = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))
 _TETRAHEDRON = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
 _TETRAHEDRON_FACES = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
@@ -113,7 +108,7 @@ HEXAHEDRON_8_CENTRE: Final = SolidShape(
 )
 HEXAHEDRON_20: Final = SolidShape(
     _with_middles(_HEXAHEDRON, _HEXAHEDRON_EDGES),
-    _powers(lambda *powers: _superlinear(*powers) <= 2),
+    _powers(lambda *powers: sum(power for power in powers if power > 1) <= 2),
     _EIGHT,
     np.ones(8),
     _TRILINEAR,

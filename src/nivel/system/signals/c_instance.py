@@ -173,17 +173,12 @@ def _library_of(facts: CFacts) -> bytes:
     # files that it includes may change without a change of its own
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / f"unit{SUFFIX}"
-        kept = store.path_of("c_function", compiler, *FLAGS, _preprocessed(facts, compiler))
+        kept = store.path_of("c_function", compiler, *FLAGS, _run(facts, [compiler, "-E", facts.file]))
         if (found := store.read(kept)) is None:
             _run(facts, [compiler, *FLAGS, "-o", str(target), facts.file, "-lm"])
             found = target.read_bytes()
             store.write(kept, found)
     return found
-
-
-def _preprocessed(facts: CFacts, compiler: str) -> str:
-    """The source with all that it includes."""
-    return _run(facts, [compiler, "-E", facts.file])
 
 
 def _run(facts: CFacts, command: list[str]) -> str:

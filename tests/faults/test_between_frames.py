@@ -10,7 +10,7 @@ import nivel
 from nivel.analysis.sweep.outputs import Task
 from nivel.analysis.sweep.variant import run_variant
 from nivel.files import parse_machine
-from nivel.machine.study import Reduced
+from nivel.machine.study.output import Reduced
 from nivel.results.curve import curve, curve_of
 from nivel.results.reductions import REDUCTIONS, integral_of_magnitude, largest, turning_values
 

@@ -18,7 +18,7 @@ from nivel.analysis.sweep.outputs import Task
 from nivel.analysis.sweep.sweep import Engine
 from nivel.analysis.sweep.variant import run_variant
 from nivel.errors import ModelError
-from nivel.machine.study import StudyRecord
+from nivel.machine.study.study_record import StudyRecord
 from nivel.studies import load_study
 from patience import PATIENCE
 

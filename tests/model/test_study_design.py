@@ -9,7 +9,7 @@ from scipy import stats
 from needing import needs
 from nivel.analysis.sweep.variants import draw, quantiles
 from nivel.errors import ModelError
-from nivel.machine.study import Normal, Range, Tolerance, Triangular, Uniform, Values
+from nivel.machine.study.parameter import Normal, Range, Tolerance, Triangular, Uniform, Values
 from nivel.results.study_statistics import Table, surface
 
 SHARES = np.array([0.001, 0.1, 0.25, 0.5, 0.8, 0.999])

@@ -8,7 +8,7 @@ import xarray
 from scipy import stats
 
 from nivel.analysis.sweep.variants import draw
-from nivel.machine.study import Uniform
+from nivel.machine.study.parameter import Uniform
 from nivel.report.study_page import study_html
 from nivel.results.study_statistics import Share, Table, capability, effects, share_within, sobol_indices, surface
 from nivel.results.trust import Trust

@@ -11,18 +11,12 @@ from nivel.errors import Fault, ModelError
 from nivel.files.outline import FORMAT, NAMED, VALUES, as_part, check_sections, check_start, section_of
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
-from nivel.machine.core.record import Record, unknown_word
+from nivel.machine.core.record import FileName, Record, unknown_word
 from nivel.machine.units.quantity import FAULT, fault, shown
 
 TAKEN: Final = tuple(section for section in NAMED if section not in VALUES)
 
 STARTS: Final = re.compile(r"""^\s*\{?\s*["']?format["']?\s*:""", re.MULTILINE)
-
-
-def _file_name(value: Any) -> Any:
-    if not isinstance(value, str) or not value.strip():
-        raise fault(f"the name of a file was expected, got {shown(value)}")
-    return value
 
 
 def _sections(value: Any) -> Any:
@@ -33,7 +27,6 @@ def _sections(value: Any) -> Any:
     return entries
 
 
-FileName = Annotated[str, BeforeValidator(_file_name)]
 Sections = Annotated[tuple[str, ...], BeforeValidator(_sections)]
 
 

@@ -19,7 +19,7 @@ from nivel.analysis.sweep.variant_runs import AnalysedVariants, VariantRuns, for
 from nivel.errors import Fault, ModelError, NivelError, SolveError, refuse
 from nivel.lazy import dataclass, nivel, scipy
 from nivel.machine.core.vectors import Array
-from nivel.machine.study import ANALYSES
+from nivel.machine.study.study_record import ANALYSES
 from nivel.model import Model
 from nivel.words.wording import shown, unknown_word
 

@@ -15,60 +15,65 @@ from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import chooses
 from nivel.motion.catalogue import FORMULATIONS, PATHS, path_of
 
+Problems = Iterator[tuple[str, str]]  # field of the settings, message
+
 
 def refuse_combinations(settings: SimulationSettings, coordinates: str) -> list[Fault]:
     """Faults of `settings` with these coordinates (`auto` resolved)."""
-    faults = []
+    return [Fault.at(f"simulation.{field}", message) for field, message in _problems(settings, coordinates)]
+
+
+def _problems(settings: SimulationSettings, coordinates: str) -> Problems:
     formulation, stabilisation = settings.formulation, settings.stabilisation
     if settings.rotations != "euler-parameters" and (formulation, coordinates) != ("lagrange", "absolute"):
         message = (
             f"'{settings.rotations}' are rotation coordinates of `formulation: lagrange` with `coordinates: absolute`; "
             f"{formulation} in {coordinates} coordinates has no use for them"
         )
-        faults.append(_fault("rotations", message))
+        yield "rotations", message
     if path_of(coordinates, formulation, "euler-parameters") is None:
         known = sorted({c for c, f, _ in PATHS if f == ("lagrange" if formulation == "lagrange" else "newton-euler")})
         message = f"'{coordinates}' does not go with `formulation: {formulation}`, which is for {' or '.join(known)}"
-        faults.append(_fault("coordinates", message))
+        yield "coordinates", message
     if stabilisation == "baumgarte" and FORMULATIONS[formulation].factor > 0.0:
         message = (
             f"'baumgarte' does not go with `formulation: {formulation}`, which feeds violations back itself: "
             f"set `penalty: {{omega: …, mu: …}}` and take none, direct or geometric"
         )
-        faults.append(_fault("stabilisation", message))
+        yield "stabilisation", message
     if coordinates == "independent":
-        faults += _refuse_feedback(formulation, stabilisation)
-    faults += _refuse_residual(settings, coordinates) + _refuse_step_control(settings) + _refuse_matrix(settings)
-    return faults + _refuse_chosen_steps(settings)
+        yield from _beside_independent(formulation, stabilisation)
+    yield from _beside_residual(settings, coordinates)
+    yield from _of_step_control(settings)
+    yield from _of_matrix(settings)
+    yield from _of_chosen_steps(settings)
 
 
-def _refuse_feedback(formulation: str, stabilisation: str) -> list[Fault]:
+def _beside_independent(formulation: str, stabilisation: str) -> Problems:
     """What feeds violations of constraints back, in coordinates that have none."""
-    faults = []
     left = "the constraints are solved for the dependent coordinates after every step, so there is no violation to feed back"
     if stabilisation == "baumgarte":
         message = f"'baumgarte' does not go with `coordinates: independent`: {left}; take none, direct or geometric"
-        faults.append(_fault("stabilisation", message))
+        yield "stabilisation", message
     if FORMULATIONS[formulation].factor > 0.0:
-        message = f"'{formulation}' does not go with `coordinates: independent`: {left}; take newton-euler"
-        faults.append(_fault("formulation", message))
-    return faults
+        yield "formulation", f"'{formulation}' does not go with `coordinates: independent`: {left}; take newton-euler"
 
 
-def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fault]:
+def _beside_residual(settings: SimulationSettings, coordinates: str) -> Problems:
     """What does not go with an integrator that needs the equations of motion as a residual, with exact tangents."""
-    facts, faults = INTEGRATORS[settings.integrator], []
+    facts = INTEGRATORS[settings.integrator]
     if not facts.residual:
-        return faults
+        return
     name = f"`integrator: {settings.integrator}`"
     if coordinates == "independent" and settings.formulation == "lagrange":
         message = (
             f"'lagrange' in independent coordinates does not go with {name}, which needs a residual: use newton-euler, which has the same "
             f"motion, or an explicit or multistep integrator"
         )
-        faults.append(_fault("formulation", message))
+        yield "formulation", message
     if facts.needs == "whole steps":
-        return faults + _refuse_beside_whole_steps(settings, coordinates)
+        yield from _beside_whole_steps(settings, coordinates)
+        return
     if (
         settings.stabilisation == "baumgarte"
         and not _gives_coefficients(settings)
@@ -79,50 +84,48 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
             f"'baumgarte' without coefficients takes α = 1/step and β = √2/step, as fast as a step of {name}, which does not iterate and "
             f"has order one there: take direct, or own coefficients `baumgarte: {{alpha: 20/s, beta: 20/s}}`"
         )
-        faults.append(_fault("stabilisation", message))
+        yield "stabilisation", message
     if facts.kind == "corrector" and settings.corrector.iteration == "functional":
         message = f"'functional' does not go with {name}, which takes Newton's method with exact tangents: leave `iteration` out"
-        faults.append(_fault("corrector.iteration", message))
-    return faults
+        yield "corrector.iteration", message
 
 
-def _refuse_beside_whole_steps(settings: SimulationSettings, coordinates: str) -> list[Fault]:
+def _beside_whole_steps(settings: SimulationSettings, coordinates: str) -> Problems:
     """What does not go with an integrator that balances momenta over a whole step."""
-    name, faults = f"`integrator: {settings.integrator}`", []
+    name = f"`integrator: {settings.integrator}`"
     if FORMULATIONS[settings.formulation].factor > 0.0:
         message = (
             f"'{settings.formulation}' does not go with {name}, whose multipliers solve the position constraints: use newton-euler, "
             f"which gives the same motion"
         )
-        faults.append(_fault("formulation", message))
+        yield "formulation", message
     if settings.formulation == "lagrange":
         message = (
             f"'lagrange' does not go with {name}, which balances momenta for angular velocities, not for rates of rotation "
             f"coordinates: use newton-euler, which gives the same motion"
         )
-        faults.append(_fault("formulation", message))
+        yield "formulation", message
     if coordinates != "absolute":
         message = f"'{coordinates}' does not go with {name}, which balances the momenta of each body: take absolute"
-        faults.append(_fault("coordinates", message))
+        yield "coordinates", message
     if settings.stabilisation != "none":
         message = (
             f"'{settings.stabilisation}' does not go with {name}: it solves the position constraints itself, and a change of "
             f"velocities after a step would change the energy that it conserves: write `stabilisation: none`"
         )
-        faults.append(_fault("stabilisation", message))
+        yield "stabilisation", message
     if settings.corrector.iteration == "functional":
         message = f"'functional' does not go with {name}, which takes Newton's method with exact tangents: leave `iteration` out"
-        faults.append(_fault("corrector.iteration", message))
-    return faults
+        yield "corrector.iteration", message
 
 
-def _refuse_matrix(settings: SimulationSettings) -> list[Fault]:
+def _of_matrix(settings: SimulationSettings) -> Problems:
     """Newton's matrix made anew for every iteration, where the method has another use for it, or none."""
     facts = INTEGRATORS[settings.integrator]
     if settings.corrector.matrix != "full" or (facts.residual and not facts.first_order):
-        return []
+        return
     if facts.kind == "explicit":
-        return []  # no corrector at all
+        return  # no corrector at all
     why = "solves with one exact matrix a step and does not iterate"
     if facts.chooses_steps:
         why = "chooses steps and orders by the cost of its matrix so far"
@@ -132,51 +135,45 @@ def _refuse_matrix(settings: SimulationSettings) -> list[Fault]:
         f"'full' does not go with `integrator: {settings.integrator}`, which {why}: take newmark, hht or generalised-alpha, or leave "
         f"`matrix` out"
     )
-    return [_fault("corrector.matrix", message)]
+    yield "corrector.matrix", message
 
 
-def _refuse_step_control(settings: SimulationSettings) -> list[Fault]:
+def _of_step_control(settings: SimulationSettings) -> Problems:
     """Steps that the integrator cannot choose, or cannot but choose."""
     facts, wanted = INTEGRATORS[settings.integrator], settings.step_control
     if wanted == "own" or facts.optional_control or facts.chooses_steps == (wanted == "error"):
-        return []
+        return
     name = f"`integrator: {settings.integrator}`"
     if wanted == "fixed":
         message = f"{name} always chooses its steps: take an integrator of fixed step, e.g. rk4 or generalised-alpha"
     else:
         message = f"{name} has no estimate of its error: take dopri5, or radau for stiff machines"
-    return [_fault("step_control", message)]
+    yield "step_control", message
 
 
-def _refuse_chosen_steps(settings: SimulationSettings) -> list[Fault]:
+def _of_chosen_steps(settings: SimulationSettings) -> Problems:
     """What needs a step of fixed size and gets an integrator that chooses its steps."""
-    faults = []
     if not chooses(settings.integrator, settings.step_control):
-        return faults
+        return
     reason = f"which depend on the step, and `integrator: {settings.integrator}` chooses its steps"
     if settings.stabilisation == "baumgarte" and not _gives_coefficients(settings):
         message = (
             f"'baumgarte' without coefficients takes α = 1/step and β = √2/step, {reason}: take direct, or own coefficients "
             f"`baumgarte: {{alpha: 20/s, beta: 20/s}}`"
         )
-        faults.append(_fault("stabilisation", message))
+        yield "stabilisation", message
     penalised = FORMULATIONS[settings.formulation].factor > 0.0
     if penalised and settings.stabilisation == "none" and settings.penalty.omega is None:
         message = (
             f"`formulation: {settings.formulation}` without `omega` takes Ω = 0.1/step, {reason}: set `penalty: {{omega: 10/s}}`, "
             f"or take `stabilisation: direct`, which needs no Ω"
         )
-        faults.append(_fault("penalty", message))
-    return faults
+        yield "penalty", message
 
 
 def _gives_coefficients(settings: SimulationSettings) -> bool:
     """Whether the settings have coefficients of Baumgarte's feedback of their own, for all rows."""
     return settings.baumgarte is not None and settings.baumgarte.is_whole
-
-
-def _fault(field: str, message: str) -> Fault:
-    return Fault.at(f"simulation.{field}", message)
 
 
 def screws_as_couplings(machine: MachineRecord, names: Collection[str]) -> Iterator[tuple[str, str]]:

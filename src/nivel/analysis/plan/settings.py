@@ -103,26 +103,26 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
     if not chosen_steps and not countable:
         wanted = f"a `duration` of {settings.duration:.6g} s in steps of {settings.step:.6g} s"
         message = f"{wanted} would take more than {MOST_STEPS:.0e} steps; use a larger step, or a shorter duration"
-        faults.append(_fault("step", message))
+        faults.append(Fault.at("simulation.step", message))
     if facts.kind == "corrector" and settings.corrector.tolerance < LEAST_CHANGE:
         message = f"{settings.corrector.tolerance:.3g} is below {LEAST_CHANGE:.0e}, where round-off dominates; use a larger value"
-        faults.append(_fault("corrector.tolerance", message))
+        faults.append(Fault.at("simulation.corrector.tolerance", message))
     steps, every, interval = 0, 0, settings.duration
     if chosen_steps:
         interval = settings.output_interval or settings.duration / FRAMES
         if settings.duration > MOST_STEPS * interval:
             faults.append(
-                _fault(
-                    "output_interval",
+                Fault.at(
+                    "simulation.output_interval",
                     f"{interval:.6g} s would give more than {MOST_STEPS:.0e} frames in a `duration` of {settings.duration:.6g} s",
                 )
             )
         if settings.largest_step is not None and settings.duration > MOST_STEPS * settings.largest_step:
             wanted = f"{settings.largest_step:.6g} s would take more than {MOST_STEPS:.0e} steps"
-            faults.append(_fault("largest_step", f"{wanted} in a `duration` of {settings.duration:.6g} s"))
+            faults.append(Fault.at("simulation.largest_step", f"{wanted} in a `duration` of {settings.duration:.6g} s"))
         if settings.tolerance < LEAST_TOLERANCE:
             message = f"{settings.tolerance:.3g} is below {LEAST_TOLERANCE:.0e}, where round-off dominates; use a larger value"
-            faults.append(_fault("tolerance", message))
+            faults.append(Fault.at("simulation.tolerance", message))
     elif countable:
         steps = max(1, ceil(settings.duration / settings.step * (1.0 - 1e-12)))
         every = _every(settings, steps, faults)
@@ -201,9 +201,5 @@ def _every(settings: SimulationSettings, steps: int, faults: list[Fault]) -> int
         message = (
             f"{settings.output_interval:.6g} s is not a multiple of the step {settings.step:.6g} s; use {choices} s"
         )
-        faults.append(_fault("output_interval", message))
+        faults.append(Fault.at("simulation.output_interval", message))
     return max(1, every)
-
-
-def _fault(field: str, message: str) -> Fault:
-    return Fault.at(f"simulation.{field}", message)

@@ -13,9 +13,18 @@ from nivel.analysis.plan.settings import with_usual_frames
 from nivel.errors import Fault, ModelError
 from nivel.lazy import dataclass, field
 from nivel.machine.core.vectors import Array
-from nivel.machine.study import AtEvent, AtTime, EventTime, FinalValue, Output, PythonOutput, ScalarOutput
 from nivel.machine.study.any_quantity import another_measure
-from nivel.machine.study.output import SCALAR, said_output
+from nivel.machine.study.output import (
+    SCALAR,
+    AtEvent,
+    AtTime,
+    EventTime,
+    FinalValue,
+    Output,
+    PythonOutput,
+    ScalarOutput,
+    said_output,
+)
 from nivel.model import Model
 from nivel.results.analyses.efforts import Efforts
 from nivel.results.analyses.linear_model import LinearModel

@@ -16,9 +16,9 @@ from nivel.extras import needed
 from nivel.lazy import dataclass, scipy
 from nivel.machine.core.vectors import Array
 from nivel.machine.settings.values import settings_of
-from nivel.machine.study import DRAWN, PLANNED, SOBOL_INDICES
 from nivel.machine.study.any_quantity import si, si_or_text
 from nivel.machine.study.parameter import Between, Normal, Range, Tolerance, Triangular, Uniform, Values
+from nivel.machine.study.study_record import DRAWN, PLANNED, SOBOL_INDICES
 from nivel.words.arguments import plain
 from nivel.words.wording import shown
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BeforeValidator
 
 from nivel.elements.beams.sections import Material, SectionRecord
-from nivel.flexible.model.solid_records import Part, Solid
+from nivel.flexible.model.solid_records import Solid
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import Truth
 from nivel.machine.core.record import Name, unknown_word
@@ -288,6 +288,3 @@ class ModelRecord(Checked):
                 yield Problem(("reduction", "held", at), unknown_word(text.rpartition(".")[0], names, "interface"))
         if reduction.method == "free-interface" and not self.interfaces:
             yield Problem(("reduction", "method"), "attachment modes need `interfaces` where loads act")
-
-
-__all__ = ["ModelRecord", "Part"]

@@ -3,21 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal
-
-from pydantic import BeforeValidator
+from typing import Annotated, Literal
 
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import Truth
-from nivel.machine.core.record import Name
+from nivel.machine.core.record import FileName, Name
 from nivel.machine.given import Field
-from nivel.machine.units.quantity import Position, PositiveLength, fault, shown
-
-
-def _file(value: Any) -> str:
-    if not isinstance(value, str) or not value.strip():
-        raise fault(f"the name of a file was expected, got {shown(value)}")
-    return value
+from nivel.machine.units.quantity import Position, PositiveLength
 
 
 class _PartRecord(Checked):
@@ -36,31 +28,30 @@ class BoxPart(_PartRecord):
             yield Problem(("to",), "the block has no thickness: `from` and `to` differ along all three axes")
 
 
-class CylinderPart(_PartRecord):
+class _RoundPart(_PartRecord):
+    from_: Position = Field(key="from")
+    to: Position
+    radius: PositiveLength
+
+    def problems(self) -> Iterator[Problem]:
+        if self.from_ == self.to:
+            yield Problem(("to",), "`from` and `to` are the same point")
+
+
+class CylinderPart(_RoundPart):
     """A round bar between two points of its axis."""
 
     type: Literal["cylinder"] = "cylinder"
-    from_: Position = Field(key="from")
-    to: Position
-    radius: PositiveLength
-
-    def problems(self) -> Iterator[Problem]:
-        if self.from_ == self.to:
-            yield Problem(("to",), "`from` and `to` are the same point")
 
 
-class ConePart(_PartRecord):
+class ConePart(_RoundPart):
     """A round bar that tapers from `radius` to `end_radius`."""
 
     type: Literal["cone"] = "cone"
-    from_: Position = Field(key="from")
-    to: Position
-    radius: PositiveLength
     end_radius: PositiveLength
 
     def problems(self) -> Iterator[Problem]:
-        if self.from_ == self.to:
-            yield Problem(("to",), "`from` and `to` are the same point")
+        yield from super().problems()
         if self.radius == self.end_radius:
             yield Problem(("end_radius",), "equal radii make a `cylinder`")
 
@@ -80,7 +71,7 @@ class Solid(Checked):
     """A solid of one material, meshed with tetrahedra of ten nodes."""
 
     parts: tuple[Part, ...] = ()
-    file: Annotated[str, BeforeValidator(_file)] | None = Field(default=None, description="a STEP file")
+    file: FileName | None = Field(default=None, description="a STEP file")
     material: Name
     element_size: PositiveLength
     tagged = {"parts": 2}  # noqa: RUF012

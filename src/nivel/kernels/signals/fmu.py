@@ -6,6 +6,7 @@ inputs of then and makes a step from the sample before; its outputs are those at
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -50,6 +51,23 @@ class Fmu(NamedTuple):
     output_references: U1
     flags: U1  # (3,) event, end and early return, a byte each
     last: F1  # (1,) [s]
+
+
+def unloaded(version: int, inputs: Sequence[int], outputs: Sequence[int]) -> Fmu:
+    """The record of an FMU that is not loaded. inputs, outputs : references of its variables."""
+    record = Fmu(
+        address=np.zeros(ADDRESSES, dtype=np.uint64),
+        number=np.zeros(NUMBERS, dtype=np.int64),
+        time=np.full(1, -np.inf),
+        inputs=np.zeros(len(inputs)),
+        outputs=np.full(len(outputs), np.nan),
+        input_references=np.array(inputs, dtype=np.uint32),
+        output_references=np.array(outputs, dtype=np.uint32),
+        flags=np.zeros(3, dtype=np.uint32),
+        last=np.zeros(1),
+    )
+    record.number[VERSION] = version
+    return record
 
 
 fmu_at = reader(Fmu)

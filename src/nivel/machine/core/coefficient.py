@@ -51,10 +51,21 @@ COORDINATE_INTEGRAL: Final = ("stiffness per time", "torsional stiffness per tim
 COORDINATE_DAMPING: Final = ("damping", "torsional damping")
 
 
-def _not_negative(value: float) -> float:
-    if value < 0:
-        raise fault(f"zero or more was expected, got `{value:g}`")
-    return value
+def _where(holds: Callable[[float], bool], expected: str) -> Callable[[float], float]:
+    """A bound of numbers: one of which it does not hold is refused, with what was `expected`."""
+
+    def check(value: float) -> float:
+        if not holds(value):
+            raise fault(f"{expected} was expected, got `{value:g}`")
+        return value
+
+    return check
+
+
+_not_negative = _where(lambda value: not value < 0, "zero or more")
+_fraction = _where(lambda value: 0 < value <= 1, "a number above 0 and up to 1")
+_poisson_ratio = _where(lambda value: -1 < value <= 0.5, "a number above -1 and up to 0.5")
+_exponent = _where(lambda value: not value < 1, "a number of 1 or more")
 
 
 def _size_of_section(value: float) -> float:
@@ -62,24 +73,6 @@ def _size_of_section(value: float) -> float:
         raise fault(
             f"{value:.3g} m is no size of a beam's section: between {THINNEST:g} and {THICKEST:g} m was expected"
         )
-    return value
-
-
-def _fraction(value: float) -> float:
-    if not 0 < value <= 1:
-        raise fault(f"a number above 0 and up to 1 was expected, got `{value:g}`")
-    return value
-
-
-def _exponent(value: float) -> float:
-    if value < 1:
-        raise fault(f"a number of 1 or more was expected, got `{value:g}`")
-    return value
-
-
-def _poisson_ratio(value: float) -> float:
-    if not -1 < value <= 0.5:
-        raise fault(f"a number above -1 and up to 0.5 was expected, got `{value:g}`")
     return value
 
 
@@ -195,7 +188,9 @@ Frequency = Annotated[OneNumber, Quantity("frequency", positive=True)]
 NotNegativeTorque = Annotated[OneNumber, Quantity("torque"), NotNegative]
 Share = Annotated[OneNumber, Quantity("number"), AfterValidator(_fraction)]
 Pressure = Annotated[OneNumber, Quantity("pressure", positive=True)]
-PoissonRatio = Annotated[OneNumber, Quantity("number"), AfterValidator(_poisson_ratio)]
+PoissonRatio = Annotated[
+    OneNumber, Quantity("number"), _where(lambda value: -1 < value <= 0.5, "a number above -1 and up to 0.5")
+]
 Restitution = Annotated[OneNumber, Quantity("number"), AfterValidator(_fraction)]
 Exponent = Annotated[OneNumber, Quantity("number"), AfterValidator(_exponent)]
 

@@ -36,7 +36,14 @@ def _named(value: Any) -> str:
     return value
 
 
+def _named_file(value: Any) -> str:
+    if not isinstance(value, str) or not value.strip():
+        raise fault(f"the name of a file was expected, got {shown(value)}")
+    return value
+
+
 Name = Annotated[str, BeforeValidator(_named), WithJsonSchema({"type": "string", "pattern": _ROUGHLY})]
+FileName = Annotated[str, BeforeValidator(_named_file)]
 
 
 STATION = re.compile(rf"{NAME.pattern}(\.[\w-]+)?")

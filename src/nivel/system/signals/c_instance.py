@@ -9,7 +9,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -18,12 +17,12 @@ import numpy as np
 from nivel.errors import Fault, ModelError
 from nivel.files.sources import read_bytes
 from nivel.kernels.core.block import Handle
-from nivel.kernels.record.hook import Family
 from nivel.kernels.signals import c_function as kernel
 from nivel.kernels.signals.c_function import CFunction
 from nivel.machine.control.part import CFacts
 from nivel.native import store
 from nivel.system.signals.foreign import Environment, guard_exit, keeps_environment
+from nivel.system.signals.units import OwnUnit
 
 SOURCE = ".c"
 SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
@@ -31,8 +30,10 @@ FLAGS = ("-O2", "-fPIC", "-shared")
 LONGEST_MESSAGE = 2000  # characters of a compiler
 
 
-class CInstance:
+class CInstance(OwnUnit[CFacts, CFunction]):
     """The function of a block. Its library is a copy for each run, so that memory of the library begins anew."""
+
+    law = kernel.output
 
     def __init__(self, facts: CFacts) -> None:
         """Raises ModelError where the file cannot be read or compiled."""
@@ -54,11 +55,6 @@ class CInstance:
         self.record.address[kernel.ENVIRONMENT :] = self._environment.addresses
         self.handle = Handle(self.record)
 
-    @property
-    def law(self) -> Family:
-        """What calls it."""
-        return kernel.output
-
     # --- a run ---
 
     @keeps_environment
@@ -73,13 +69,13 @@ class CInstance:
         try:
             self._loaded = ctypes.CDLL(str(path))
         except OSError as problem:
-            raise self._fault(f"cannot be loaded: {str(problem).replace(str(path), path.name)}") from None
+            why = str(problem).replace(str(path), path.name)
+            raise self._fault(f"the library `{self.facts.file}` cannot be loaded: {why}") from None
         try:
             function = getattr(self._loaded, self.facts.function)
         except AttributeError:
-            raise _fault(
-                self.facts, "function", f"`{self.facts.file}` has no function `{self.facts.function}`"
-            ) from None
+            message = f"`{self.facts.file}` has no function `{self.facts.function}`"
+            raise self._fault(message, "function") from None
         record = self.record
         record.address[kernel.FUNCTION] = ctypes.cast(function, ctypes.c_void_p).value or 0
         record.number[:] = 0
@@ -96,13 +92,8 @@ class CInstance:
             shutil.rmtree(self._folder, ignore_errors=True)
             self._folder = None
 
-    def __del__(self) -> None:
-        with suppress(Exception):  # at the end of the process parts of Python are gone
-            self.end()
-
     @property
     def failure(self) -> str:
-        """What went wrong in the run, as a sentence without a full stop; empty where nothing did."""
         number = self.record.number
         if not number[kernel.FAULT]:
             return ""
@@ -156,9 +147,6 @@ class CInstance:
             record.number[kernel.FAULT] = kernel.NO_NUMBER
         return record.outputs.tobytes()
 
-    def _fault(self, what: str) -> ModelError:
-        return _fault(self.facts, "file", f"the library `{self.facts.file}` {what}")
-
 
 def _library_of(facts: CFacts) -> bytes:
     """The shared library of a block, compiled where its file is C. Raises ModelError."""
@@ -169,7 +157,7 @@ def _library_of(facts: CFacts) -> bytes:
     compiler = shutil.which(command)
     if compiler is None:
         said = f"the C compiler `{command}` that compiles `{facts.file}` is not installed; give a shared library, `file: unit{SUFFIX}`"
-        raise _fault(facts, "file", said)
+        raise _fault(facts, said)
     # files that it includes may change without a change of its own
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / f"unit{SUFFIX}"
@@ -187,7 +175,7 @@ def _run(facts: CFacts, command: list[str]) -> str:
     except (OSError, subprocess.CalledProcessError) as problem:
         said = getattr(problem, "stderr", b"") or str(problem).encode()
         text = said.decode(errors="replace").strip()[:LONGEST_MESSAGE]
-        raise _fault(facts, "file", f"`{facts.file}` cannot be compiled:\n{text}") from None
+        raise _fault(facts, f"`{facts.file}` cannot be compiled:\n{text}") from None
     return done.stdout.decode(errors="replace")
 
 
@@ -203,5 +191,5 @@ def _unload(library: Any) -> None:
         dlclose(library._handle)
 
 
-def _fault(facts: CFacts, key: str, message: str) -> ModelError:
-    return ModelError(Fault.at(f"control.{facts.block}.{key}", message))
+def _fault(facts: CFacts, message: str) -> ModelError:
+    return ModelError(Fault.at(f"control.{facts.block}.file", message))

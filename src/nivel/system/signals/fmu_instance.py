@@ -9,7 +9,6 @@ import platform
 import shutil
 import tempfile
 import threading
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -19,11 +18,11 @@ from nivel.errors import Fault, ModelError, refuse
 from nivel.files.fmu_file import MOST_BYTES, UnitDescription, read_description, unknown_variables, unpack
 from nivel.files.sources import read_bytes
 from nivel.kernels.core.block import Handle
-from nivel.kernels.record.hook import Family
 from nivel.kernels.signals import fmu as kernel
 from nivel.kernels.signals.fmu import Fmu
 from nivel.machine.control.part import FmuFacts
 from nivel.system.signals.foreign import Environment, guard_exit, keeps_environment
+from nivel.system.signals.units import OwnUnit
 
 MOST_MESSAGES = 20
 # an instance that was freed, or never made
@@ -97,8 +96,10 @@ class _Callbacks2(ctypes.Structure):
     )
 
 
-class FmuInstance:
+class FmuInstance(OwnUnit[FmuFacts, Fmu]):
     """The unit of a block as a machine in numbers has it. messages : what it has logged."""
+
+    law = kernel.output
 
     def __init__(self, facts: FmuFacts) -> None:
         """Raises ModelError where the file is no FMU, or has no such variables."""
@@ -121,33 +122,22 @@ class FmuInstance:
 
     def _record(self) -> Fmu:
         variables = self.description.variables
-        references = [
-            np.array([variables[name].reference for name in names], dtype=np.uint32)
-            for names in (self.facts.inputs, self.facts.outputs)
-        ]
-        record = Fmu(
-            address=np.zeros(kernel.ADDRESSES, dtype=np.uint64),
-            number=np.zeros(kernel.NUMBERS, dtype=np.int64),
-            time=np.full(1, -np.inf),
-            inputs=np.zeros(len(references[0])),
-            outputs=np.full(len(references[1]), np.nan),
-            input_references=references[0],
-            output_references=references[1],
-            flags=np.zeros(3, dtype=np.uint32),
-            last=np.zeros(1),
-        )
+        names = (self.facts.inputs, self.facts.outputs)
+        record = kernel.unloaded(self.description.version, *([variables[n].reference for n in each] for each in names))
         record.address[kernel.INPUTS : kernel.ENVIRONMENT] = [
-            array.ctypes.data for array in (record.inputs, record.outputs, *references, record.flags, record.last)
+            array.ctypes.data
+            for array in (
+                record.inputs,
+                record.outputs,
+                record.input_references,
+                record.output_references,
+                record.flags,
+                record.last,
+            )
         ]
         self._environment = Environment()
         record.address[kernel.ENVIRONMENT :] = self._environment.addresses
-        record.number[kernel.VERSION] = self.description.version
         return record
-
-    @property
-    def law(self) -> Family:
-        """What calls it."""
-        return kernel.output
 
     # --- a run ---
 
@@ -162,7 +152,7 @@ class FmuInstance:
         self._instance = self._made(folder)
         if not self._instance:
             tool = ", and says that it needs the program that made it" if self.description.needs_tool else ""
-            raise self._fault(f"could not be instantiated{tool}")
+            raise self._refusal(f"could not be instantiated{tool}")
         record, names = self.record, CALLED[self.description.version]
         record.address[: len(names)] = [
             ctypes.cast(getattr(library, name), ctypes.c_void_p).value or 0 for name in names
@@ -200,7 +190,7 @@ class FmuInstance:
         variables = self.description.variables
         references = np.array([variables[name].reference for name, _ in self.facts.parameters], dtype=np.uint32)
         if self._transfer(kernel.SET, references, np.array([float(value) for _, value in self.facts.parameters])):
-            raise self._fault("refuses its parameters")
+            raise self._refusal("refuses its parameters")
 
     @keeps_environment
     def end(self) -> None:
@@ -210,13 +200,8 @@ class FmuInstance:
         self._instance = NOTHING
         self.record.number[kernel.PHASE] = kernel.ABSENT
 
-    def __del__(self) -> None:
-        with suppress(Exception):  # at the end of the process parts of Python are gone
-            self.end()
-
     @property
     def failure(self) -> str:
-        """What went wrong in the run, as a sentence without a full stop; empty where nothing did."""
         fault = int(self.record.number[kernel.FAULT])
         if not fault:
             return ""
@@ -229,26 +214,21 @@ class FmuInstance:
 
     # --- states ---
 
-    @property
-    def arrays(self) -> list[Any]:
-        """What a saved state has of it besides what the unit itself saves."""
-        return [self.record.number, self.record.time, self.record.outputs]
-
     @keeps_environment
     def state(self) -> bytes:
         """The state of the unit. Raises ModelError where it cannot be read."""
         if not self.description.keeps_states:
-            raise self._fault("cannot save its state, so there is no state of the simulation")
+            raise self._refusal("cannot save its state, so there is no state of the simulation")
         get, _, free, sized, write, _ = STATES[self.description.version]
         kept, size = ctypes.c_void_p(), ctypes.c_size_t()
         failed = self._fails(get, ctypes.byref(kept)) or self._fails(sized, kept, ctypes.byref(size))
         if size.value > MOST_BYTES:
-            raise self._fault(f"says that its state has {size.value} bytes")
+            raise self._refusal(f"says that its state has {size.value} bytes")
         content = ctypes.create_string_buffer(max(1, size.value))
         failed = failed or self._fails(write, kept, content, size)
         self._call(free, ctypes.byref(kept))
         if failed:
-            raise self._fault("cannot save its state")
+            raise self._refusal("cannot save its state")
         return content.raw[: size.value]
 
     @keeps_environment
@@ -259,7 +239,7 @@ class FmuInstance:
         failed = self._fails(read, content, ctypes.c_size_t(len(content)), ctypes.byref(kept)) or self._fails(put, kept)
         self._call(free, ctypes.byref(kept))
         if failed:
-            raise self._fault("refuses a saved state")
+            raise self._refusal("refuses a saved state")
 
     # --- without kernels ---
 
@@ -325,9 +305,9 @@ class FmuInstance:
     def _fails(self, name: str, *arguments: Any) -> bool:
         return self._call(name, *arguments) > kernel.WARNING
 
-    def _fault(self, what: str) -> ModelError:
+    def _refusal(self, what: str) -> ModelError:
         said = f": {self.messages[-1]}" if self.messages else ""
-        return ModelError(Fault.at(f"control.{self.facts.block}.file", f"the FMU `{self.facts.file}` {what}{said}"))
+        return self._fault(f"the FMU `{self.facts.file}` {what}{said}")
 
 
 def _formatted(text: bytes | None, more: int | None) -> bytes | None:

@@ -17,13 +17,13 @@ from typing import Any
 
 import numpy as np
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import ModelError
 from nivel.kernels.core.block import Handle
-from nivel.kernels.record.hook import Family
 from nivel.kernels.signals import fmu as kernel
 from nivel.kernels.signals.fmu import Fmu
 from nivel.machine.control.part import CFacts, UnitFacts
 from nivel.native.workers import python
+from nivel.system.signals.units import Unit
 
 LONGEST_START = 60.0  # s that a process may take to begin
 FAILED = 3  # status of FMI
@@ -35,8 +35,10 @@ _STEP = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_uint64, ctypes.c_double, ctype
 _MODE = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_uint64)
 
 
-class UnitProcess:
+class UnitProcess(Unit[UnitFacts, Fmu]):
     """The unit of a block in a process of its own, as a machine in numbers has it."""
+
+    law = kernel.output
 
     def __init__(self, facts: UnitFacts) -> None:
         """Raises ModelError where the file is no unit. The process begins with a run."""
@@ -45,17 +47,7 @@ class UnitProcess:
         self._link: Connection | None = None
         self._said = ""
         self._start = 0.0
-        self.record = Fmu(
-            address=np.zeros(kernel.ADDRESSES, dtype=np.uint64),
-            number=np.zeros(kernel.NUMBERS, dtype=np.int64),
-            time=np.full(1, -np.inf),
-            inputs=np.zeros(len(facts.inputs)),
-            outputs=np.full(len(facts.outputs), np.nan),
-            input_references=np.zeros(len(facts.inputs), dtype=np.uint32),
-            output_references=np.zeros(len(facts.outputs), dtype=np.uint32),
-            flags=np.zeros(3, dtype=np.uint32),
-            last=np.zeros(1),
-        )
+        self.record = kernel.unloaded(2, [0] * len(facts.inputs), [0] * len(facts.outputs))
         self._functions = (
             _VALUES(lambda *_: 0),  # inputs and outputs stand in the record
             _VALUES(lambda *_: 0),
@@ -66,14 +58,8 @@ class UnitProcess:
         )
         addresses = [ctypes.cast(each, ctypes.c_void_p).value or 0 for each in self._functions]
         self.record.address[: len(addresses)] = addresses
-        self.record.number[kernel.VERSION] = 2
         self.handle = Handle(self.record)
         self._ask_in_new_process()
-
-    @property
-    def law(self) -> Family:
-        """What calls it."""
-        return kernel.output
 
     # --- a run ---
 
@@ -98,13 +84,8 @@ class UnitProcess:
             self._process = None
         self.record.number[kernel.PHASE] = kernel.ABSENT
 
-    def __del__(self) -> None:
-        with suppress(Exception):  # at the end of the process parts of Python are gone
-            self.end()
-
     @property
     def failure(self) -> str:
-        """What went wrong in the run, as a sentence without a full stop; empty where nothing did."""
         if self._said:
             return self._said
         if not self.record.number[kernel.FAULT]:
@@ -112,11 +93,6 @@ class UnitProcess:
         return f"{self._name} gave an output that is not a number at t = {self.record.time[0]:.6g} s"
 
     # --- states ---
-
-    @property
-    def arrays(self) -> list[Any]:
-        """What a saved state has of it besides what the unit itself saves."""
-        return [self.record.number, self.record.time, self.record.outputs]
 
     def state(self) -> bytes:
         """The state of the unit. Raises ModelError where it cannot be read."""
@@ -152,15 +128,15 @@ class UnitProcess:
         """The answer to a question. Raises ModelError where the unit refuses, and where the process has ended."""
         link = self._link
         if link is None:
-            raise self._fault("has no process any more")
+            raise self._fault(f"{self._name} has no process any more")
         try:
             link.send((what, *given))
             if not link.poll(limit or max(self.facts.time_limit, LONGEST_START)):
                 self.end()
-                raise self._fault("gives no answer")
+                raise self._fault(f"{self._name} gives no answer")
             answer = link.recv()
         except (OSError, EOFError):
-            raise self._fault(self._ended()) from None
+            raise self._fault(f"{self._name} {self._ended()}") from None
         if isinstance(answer, ModelError):
             raise answer
         return answer
@@ -199,6 +175,3 @@ class UnitProcess:
         if code < 0 and os.name == "posix":
             return f"crashed ({signal.Signals(-code).name})"
         return f"crashed (exit code {code})"
-
-    def _fault(self, what: str) -> ModelError:
-        return ModelError(Fault.at(f"control.{self.facts.block}.file", f"{self._name} {what}"))

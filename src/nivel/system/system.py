@@ -18,7 +18,7 @@ from nivel.system.layout import FrameLayout
 from nivel.system.tables import Array, index_array
 
 if TYPE_CHECKING:
-    from nivel.system.signals.units import Unit
+    from nivel.system.signals.unit import Unit
 
 
 @dataclass(frozen=True)

@@ -30,7 +30,8 @@ from nivel.system.laws.program import (
     switching_program,
     way_program,
 )
-from nivel.system.signals.units import Unit, unit_of
+from nivel.system.signals.unit import Unit
+from nivel.system.signals.units import unit_of
 from nivel.system.tables import Array, index_array
 
 Signal = tuple[int, int, int]  # kind, index, component: see `nivel.kernels.record.function`

@@ -22,7 +22,7 @@ from nivel.kernels.signals.c_function import CFunction
 from nivel.machine.control.part import CFacts
 from nivel.native import store
 from nivel.system.signals.foreign import Environment, guard_exit, keeps_environment
-from nivel.system.signals.units import OwnUnit
+from nivel.system.signals.unit import OwnUnit
 
 SOURCE = ".c"
 SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")

@@ -22,7 +22,7 @@ from nivel.kernels.signals import fmu as kernel
 from nivel.kernels.signals.fmu import Fmu
 from nivel.machine.control.part import FmuFacts
 from nivel.system.signals.foreign import Environment, guard_exit, keeps_environment
-from nivel.system.signals.units import OwnUnit
+from nivel.system.signals.unit import OwnUnit
 
 MOST_MESSAGES = 20
 # an instance that was freed, or never made

@@ -23,7 +23,7 @@ from nivel.kernels.signals import fmu as kernel
 from nivel.kernels.signals.fmu import Fmu
 from nivel.machine.control.part import CFacts, UnitFacts
 from nivel.native.workers import python
-from nivel.system.signals.units import Unit
+from nivel.system.signals.unit import Unit
 
 LONGEST_START = 60.0  # s that a process may take to begin
 FAILED = 3  # status of FMI

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from nivel.errors import ModelError
-from nivel.system.signals.units import OwnUnit, unit_here
+from nivel.system.signals.unit import OwnUnit
+from nivel.system.signals.units import unit_here
 
 _Connection: Any = connection.Connection if sys.platform != "win32" else connection.PipeConnection  # type: ignore[attr-defined]
 

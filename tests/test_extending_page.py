@@ -349,7 +349,7 @@ def run(folder, *command):
 
 CALCULATE = """
 import numpy as np
-from nivel.machine.units.bounds import bounds_of
+from nivel.analysis.curves.functions import ExpressionCurve
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import ExpressionError
@@ -357,7 +357,7 @@ from nivel.kernels.record import program
 from nivel.system.laws.program import expression_program
 length = Expression("hypot3(time, 2*time, 2*time)")
 row = np.array([*expression_program(length, ["time"]), 3.0, 0.0, 0.0])
-low, high = bounds_of(length.tree, {"time": (np.array([1.0]), np.array([2.0]))})
+low, high = ExpressionCurve(length).bounds({"time": np.array([1.0])}, {"time": np.array([2.0])})
 print(length(3.0), program.run.code(row), length.derivative(3.0), low[0], high[0], read_quantity("hypot3(3 m, 4 m, 0)", "length", {}))
 try:
     read_quantity("hypot3(3 m, 4 kg, 0)", "length", {})

@@ -9,13 +9,16 @@ import numpy as np
 import pytest
 
 import nivel
+from circuits import circuit, history
 from nivel.api import Machine
 from nivel.elements.circuits import COMPONENTS
+from nivel.elements.circuits.accumulators import beyond
 from nivel.elements.circuits.actuators import Cushion
 from nivel.elements.circuits.composed import CHECK_OPENS_AT, CHECK_RANGE
 from nivel.elements.circuits.edges import Edge
-from nivel.elements.circuits.fluids import Fluid, Gas
+from nivel.elements.circuits.fluids import GRADES, Fluid, Gas
 from nivel.elements.circuits.lines import CRITICAL, RESISTANCE, loss
+from nivel.elements.circuits.nitrogen import gas_state
 from nivel.elements.circuits.pistons import (
     COULOMB,
     SEAL,
@@ -27,8 +30,10 @@ from nivel.elements.circuits.pistons import (
     PistonFriction,
     friction_force,
 )
+from nivel.elements.circuits.pumps import ripple
 from nivel.elements.circuits.smooth import ramp, root_flow, step
 from nivel.elements.circuits.spool_valves import conductances
+from nivel.elements.circuits.volumes import EXPONENT, FIXED, GAS, PRECHARGE, room
 from nivel.files import parse_machine
 
 ROOT = Path(__file__).parent.parent
@@ -93,15 +98,15 @@ def formula_of(row: str, begin: str, end: str, **names: float) -> float:
     text = begin + line.partition(begin)[2].partition(end)[0]
     text = text.partition(" = ")[2] or text
     text = (
-        text.replace("²", "**2").replace("√(", "sqrt(").replace("ρ₀", "rho").replace("ρ_l", "rho_l").replace("Δp", "dp")
+        text.replace("√(", "sqrt(").replace("ρ₀", "rho").replace("ρ_l", "rho_l").replace("Δp", "dp").replace("₀", "0")
     )
-    for sign, power in (("³", "**3"), ("⁴", "**4"), ("⁶", "**6"), ("^", "**")):
+    for sign, power in (("²", "**2"), ("³", "**3"), ("⁴", "**4"), ("⁶", "**6"), ("^", "**")):
         text = text.replace(sign, power)
     text = re.sub(r"(?<=\d)(?=t\b)", "*", text)
     text = re.sub(r"(?<=[\w)]) (?=[\w(])", "*", text)
-    text = text.replace("sqrt*(", "sqrt(").replace("exp*(", "exp(").replace("tanh*(", "tanh(")
-    known = {each: getattr(np, each) for each in ("sqrt", "exp", "tanh")}
-    return float(eval(text, {"__builtins__": {}}, {**known, **names}))
+    text = re.sub(r"\b(sqrt|exp|tanh|tan)\*\(", r"\1(", text)
+    known = {each: getattr(np, each) for each in ("sqrt", "exp", "tanh", "tan")}
+    return eval(text, {"__builtins__": {}}, {**known, **names})
 
 
 def test_the_friction_of_cylinders_is_the_formula_of_the_page():
@@ -147,3 +152,89 @@ def test_check_valves_of_brake_valves_are_those_of_the_page():
     (line,) = re.findall(r"^\| brake valve \|.*$", PAGE, re.MULTILINE)
     (found,) = re.findall(r"S\(\(p_VA - p_A - ([\de.]+)\)/([\de.]+)\)", line)
     assert tuple(map(float, found)) == (CHECK_OPENS_AT, CHECK_RANGE)
+
+
+def test_accumulators_are_the_formulas_of_the_page():
+    """Oil beside an ideal gas above and below its precharge, nitrogen, and a piston that rubs."""
+    v0, dead, p0, n = 2e-3, 3e-5, 6e6, 1.3
+    numbers = np.zeros(40)
+    numbers[[FIXED, GAS, PRECHARGE, EXPONENT]] = dead, v0, p0, n
+    width = formula_of("accumulator", "w = min", ":", min=min, V_d=dead, V0=v0)
+    for p in (3e6, 5.95e6, 6e6, 9e6, 3e7):
+        y = formula_of("accumulator", "y = 1 - (p", ",", p0=p0, p=p, n=n)
+        lower = formula_of("accumulator", "V₀ (R(y", " in place", V0=v0, y=y, w=width, R=lambda z: ramp(z, width))
+        assert room(numbers, p)[0] == pytest.approx(v0 * y if p >= p0 else lower, rel=1e-12, abs=1e-15)
+    (line,) = re.findall(r"^\| accumulator with `gas: nitrogen` \|.*$", PAGE, re.MULTILINE)
+    constants = {
+        name.replace("₀", "0"): float(value)
+        for name, value in re.findall(r"(?<![\w₀])([RABCabcαγ]₀?) = ([\d.e-]+\d)", line)
+    }
+    for density, warmth in ((0.5, 260.0), (4.0, 300.0), (14.0, 400.0)):
+        page = formula_of(
+            "accumulator with `gas: nitrogen`", "p = ρ R", " (Benedict", **{"ρ": density}, T=warmth, **constants
+        )
+        assert gas_state(density, warmth)[0] == pytest.approx(1e3 * page, rel=1e-12)
+    for drop in (-3e5, 0.0, 4e4, 9e5):
+        page = formula_of("`piston_friction` F of an accumulator", "Δp - F", " in", F=5e4, sgn=np.sign, dp=drop)
+        assert beyond(drop, 5e4) == pytest.approx(
+            page if abs(drop) > 6e4 else 0.0, abs=1e-9 + 0.05 * 5e4 * (abs(drop) > 0)
+        )
+
+
+def test_the_ripple_is_the_formula_of_the_page():
+    for pistons in (5, 7, 9):
+        page = formula_of("displacement with z = `pistons`", "δ = π", " |", z=pistons, **{"π": np.pi})
+        assert ripple(pistons) == (2 * pistons, pytest.approx(page / 2, rel=1e-14))
+
+
+def test_coolers_pilots_and_warm_gas_are_the_formulas_of_the_page():
+    rated = {"flow": "60 L/min", "pressure_drop": "5 bar"}
+    hydraulics = {
+        "tank": {"type": "reservoir", "volume": "40 L", "oil": "30 L"},
+        "supply": {"type": "volume", "volume": "0.5 L"},
+        "cold": {"type": "volume", "volume": "0.4 L"},
+        "pump": {"type": "pump", "ports": {"A": "tank", "B": "supply"}, "displacement": "20 cm^3/rev", "speed": "1500 rpm"},
+        "relief": {
+            "type": "pilot-relief-valve", "ports": {"P": "supply", "T": "tank"}, "opens_at": "60 bar", "lag": 0, **rated,
+        },
+        "gas": {
+            "type": "accumulator", "ports": {"A": "supply"}, "volume": "1 L", "precharge": "40 bar", "thermal_time": "2 s",
+            "start": "50 bar", **rated,
+        },
+        "cooler": {
+            "type": "cooler", "ports": {"A": "supply", "B": "cold"}, "heat_conductance": 300, "coolant_temperature": 283.15, **rated,
+        },
+        "out": {"type": "orifice", "ports": {"A": "cold", "B": "tank"}, "flow": "20 L/min", "pressure_drop": "70 bar"},
+    }  # fmt: skip
+    oil = {"oil": {"grade": "HLP 46", "isothermal": False, "air": 0}}
+    result = circuit(hydraulics, fluids=oil).simulate(
+        duration=1.0, output_interval=1e-3, integrator="radau", tolerance=1e-9, verify=False
+    )
+    known = lambda name: history(result, f"hydraulics.{name}")  # noqa: E731
+    density = sum(history(result, f"state.{name}.mass") / size for name, size in (("supply", 5e-4), ("cold", 4e-4))) / 2
+    names = {
+        "ṁ": density * known("cooler.flow"),
+        "c": GRADES["HLP 46"].at(313.15).heat_capacity,
+        "H": 300.0,
+        "T_c": 283.15,
+    }
+    heat = formula_of("cooler", "heat = ṁ c", ", H", T_in=known("supply.temperature"), **names)
+    np.testing.assert_allclose(known("cooler.heat")[10:], heat[10:], rtol=1e-6)
+    at = {
+        "p_X": known("relief.pressure_X"),
+        "p_P": known("supply.pressure"),
+        "p_T": known("tank.pressure"),
+        "S": np.vectorize(step),
+    }
+    for name, begin, end in (("pilot_position", "S((p_X", ";"), ("position", "S((p_P", ",")):
+        page = formula_of("pilot-operated", begin, end, setting=6e6, pilot_range=3e5, spring=2e5, range=3e5, **at)
+        np.testing.assert_allclose(known(f"relief.{name}"), page, rtol=1e-9, atol=1e-12)
+        assert 0.0 < page[-1] < 1.0
+    p, charge, row = known("gas.pressure"), history(result, "state.gas.charge"), "accumulator with `thermal_time` τ"
+    left = (charge / p) ** (1 / 1.4)  # V/V₀ by p V^γ = P V₀^γ
+    warmth = formula_of(row, "p V/(p₀", ",", p=p, V=left, p0=4e6, V0=1.0)
+    np.testing.assert_allclose(known("gas.temperature") / 293.15, warmth, rtol=1e-12)
+    rate = formula_of(row, "Ṗ = P (", ",", P=charge, T0=1.0, T=warmth, **{"τ": 2.0})
+    np.testing.assert_allclose(
+        np.gradient(charge, result.time)[10:-10], rate[10:-10], rtol=1e-3, atol=1e-3 * abs(rate).max()
+    )

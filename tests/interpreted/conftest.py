@@ -20,3 +20,9 @@ def _divisions_as_compiled():
     """Division by zero gives infinity, without a warning."""
     with np.errstate(all="ignore"):
         yield
+
+
+@pytest.fixture(autouse=True)
+def _without_looking_back(monkeypatch):
+    """Runs do not look for narrow features of functions: programs at thousands of places take long here."""
+    monkeypatch.setattr("nivel.analysis.run.dynamics.narrow_functions", lambda machine: ())

@@ -33,6 +33,7 @@ from lanes import tail
 from nivel import PointForce, Table
 from nivel.analysis.assembly import circuit_start
 from nivel.analysis.assembly.implicit import find_tangent
+from nivel.analysis.curves.functions import ExpressionCurve
 from nivel.analysis.preparation import preparation
 from nivel.files import parse_machine
 from nivel.integrate.catalogue import INTEGRATORS
@@ -41,6 +42,8 @@ from nivel.integrate.loop.repeated import halt, repeat_evaluation, repeat_family
 from nivel.kernels.core.status import BUDGET_SPENT, DONE, OK
 from nivel.live.preparation import live_plan, prepared_run
 from nivel.live.shared import bytes_of, live_in
+from nivel.machine.units.expression import Expression, expression_of
+from nivel.machine.units.tree import Lookup, Time
 from nivel.motion.catalogue import FLEXIBLE, PATHS
 from running import run
 from simulating import hinge, machine, solid
@@ -742,6 +745,33 @@ def kernels():
 
 
 COMPILERS = ("leaf", "stage", "shared", "entry", "address", "family", "element")
+
+
+ONE = ["sin", "cos", "tan", "atan", "sqrt", "abs", "floor", "tanh", "exp", "log", "asin", "acos", "sign"]
+TWO = (
+    "time^3",
+    "1/time",
+    "atan2(time, 0.2)",
+    "min(time, 0.3)",
+    "max(time, 0.3)",
+    "if(time < 0.1, 1, time)",
+    "time <= 0.2",
+    "time^time",
+)
+CURVE = Lookup(Time(), "linear", (0.0, 0.2, 0.5), (1.0, 3.0, -1.0))
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [Expression(text) for text in (*(f"-{name}(2*time - 0.1)" for name in ONE), *TWO)] + [expression_of(CURVE)],
+)
+def test_bounds_of_programs_hold(expression):
+    curve, time = ExpressionCurve(expression), np.linspace(-0.3, 0.7, 8)
+    low, high = curve.bounds({"time": time[:-1]}, {"time": time[1:]})
+    for share in (0.0, 0.4, 1.0):
+        inside = curve.values({"time": (1.0 - share) * time[:-1] + share * time[1:]})
+        known = np.isfinite(inside)
+        assert np.all((low[known] <= inside[known] + 1e-12) & (inside[known] <= high[known] + 1e-12))
 
 
 def _name(decorator):

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 
 from nivel.analysis.curves.corners import corners_of, jumping_functions
+from nivel.analysis.curves.functions import ExpressionCurve
 from nivel.kernels.record import program as kernel
 from nivel.machine.units.arithmetic import evaluate
-from nivel.machine.units.bounds import bounds_of, values_of
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.functions import FUNCTIONS, SAME, Alike, FunctionKind, Units
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import TIME, Call, ExpressionError, Signal
-from nivel.system.laws.program import expression_program, switching_program
+from nivel.system.laws.program import PlacedProgram, expression_program, switching_program
 
 RANDOM = np.random.default_rng(1).uniform(-2.0, 2.0, (100, 5))
 TOYS = {
@@ -104,13 +104,14 @@ def test_a_row_is_enough_for_values_derivatives_and_programs():
         read_quantity("hypot3(1, 2)", "number", {})
 
 
+@pytest.mark.compiles
 @pytest.mark.usefixtures("toys")
 @pytest.mark.parametrize("text", ["hypot3(time, 1, 2*time - 1)", "band(time, -1, time^2)", "jump(time - 0.4)"])
 def test_a_row_is_enough_for_bounds(text):
     tree, x = Expression(text).tree, np.linspace(-2.0, 2.0, 401)
-    values = values_of(tree, {TIME: x})
+    values = PlacedProgram.of(tree).values({TIME: x})
     np.testing.assert_allclose(values, [evaluate(tree, float(each)) for each in x], rtol=1e-14, atol=1e-15)
-    low, high = bounds_of(tree, {TIME: (x[:-8], x[8:])})
+    low, high = ExpressionCurve(Expression(text)).bounds({TIME: x[:-8]}, {TIME: x[8:]})
     for k in range(len(low)):
         assert low[k] - 1e-12 <= values[k : k + 9].min()
         assert values[k : k + 9].max() <= high[k] + 1e-12

@@ -211,7 +211,7 @@ def with_features(curve: Curve, time: Array, values: Array) -> tuple[Array, Arra
     begin, width = time[:-1], np.diff(time)
     low, high = np.minimum(values[:-1], values[1:]), np.maximum(values[:-1], values[1:])
     for _ in range(HALVINGS):
-        found = curve.bounds({TIME: (begin, begin + width)})
+        found = curve.bounds({TIME: begin}, {TIME: begin + width})
         if found is None:
             break
         beyond = np.maximum(found[1] - high, low - found[0])

@@ -9,6 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from nivel.elements.joints.couplings import FunctionCoupling
+from nivel.kernels.record.program_bounds import WIDTH, find_bounds
 from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
 from nivel.machine.laws.functions import Sampling
@@ -16,12 +17,12 @@ from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.arithmetic import LOCAL_SYMBOLS
-from nivel.machine.units.bounds import Interval, bounds_of, values_of
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.formula import linear_function
 from nivel.machine.units.tree import TIME
 from nivel.native.signature import LAW
 from nivel.system.laws.laws import law_address
+from nivel.system.laws.program import PlacedProgram
 
 # straight pieces that stand for one of a smooth table
 PIECES = 16
@@ -41,8 +42,8 @@ class Curve(Protocol):
         """At n places; known : the time and all signals there."""
         ...
 
-    def bounds(self, known: Mapping[str, Interval]) -> Interval | None:
-        """Over n intervals; None where they are not known."""
+    def bounds(self, first: Mapping[str, Array], last: Mapping[str, Array]) -> tuple[Array, Array] | None:
+        """On n straight ways from what is known at the one end to that at the other; None where they are not known."""
         ...
 
 
@@ -72,10 +73,18 @@ class ExpressionCurve:
         return self.expression.signals
 
     def values(self, known: Mapping[str, Array]) -> Array:
-        return values_of(self.expression.tree, known)
+        return self._program.values(known)
 
-    def bounds(self, known: Mapping[str, Interval]) -> Interval | None:
-        return bounds_of(self.expression.tree, known)
+    def bounds(self, first: Mapping[str, Array], last: Mapping[str, Array]) -> tuple[Array, Array] | None:
+        row, paths = self._program.row, self._program.paths
+        ways = np.stack([(first[path], last[path]) for path in paths]).transpose(2, 0, 1)
+        out = np.empty((len(ways), 2))
+        find_bounds(row, ways.ravel(), np.empty(WIDTH * len(row)), len(paths), out.reshape(-1))
+        return out[:, 0], out[:, 1]
+
+    @cached_property
+    def _program(self) -> PlacedProgram:
+        return PlacedProgram.of(self.expression.tree)
 
 
 @dataclass(frozen=True)
@@ -103,17 +112,16 @@ class TableCurve:
     def values(self, known: Mapping[str, Array]) -> Array:
         return np.interp(known[self.table.of], *self.points)
 
-    def bounds(self, known: Mapping[str, Interval]) -> Interval | None:
-        """At the ends of an interval and at the points between them."""
-        at, values = self.points
-        low, high = known[self.table.of]
-        ends = np.interp(low, at, values), np.interp(high, at, values)
+    def bounds(self, first: Mapping[str, Array], last: Mapping[str, Array]) -> tuple[Array, Array] | None:
+        """At the ends of a way and at the points between them."""
+        (at, values), both = self.points, (first[self.table.of], last[self.table.of])
+        ends = np.interp(both[0], at, values), np.interp(both[1], at, values)
         least, largest = np.minimum(*ends), np.maximum(*ends)
-        first, last = np.searchsorted(at, low), np.searchsorted(at, high, side="right")
-        inside = np.flatnonzero(last > first)
+        low, high = np.searchsorted(at, np.minimum(*both)), np.searchsorted(at, np.maximum(*both), side="right")
+        inside = np.flatnonzero(high > low)
         if len(inside):
             # reduceat takes pairs of places; the value behind the last one belongs to no pair
-            pairs = np.column_stack([first[inside], last[inside]]).ravel()
+            pairs = np.column_stack([low[inside], high[inside]]).ravel()
             padded = np.append(values, values[-1])
             least[inside] = np.minimum(least[inside], np.minimum.reduceat(padded, pairs)[::2])
             largest[inside] = np.maximum(largest[inside], np.maximum.reduceat(padded, pairs)[::2])
@@ -141,7 +149,7 @@ class LawCurve:
         rows = np.ascontiguousarray(np.column_stack([*columns, np.zeros((count, 2))]))
         return np.array([self._function(row) for row in rows])
 
-    def bounds(self, known: Mapping[str, Interval]) -> Interval | None:
+    def bounds(self, first: Mapping[str, Array], last: Mapping[str, Array]) -> tuple[Array, Array] | None:
         return None
 
 
@@ -162,7 +170,7 @@ class TurningCurve:
         values[order] = np.unwrap(values[order])
         return values
 
-    def bounds(self, known: Mapping[str, Interval]) -> Interval | None:
+    def bounds(self, first: Mapping[str, Array], last: Mapping[str, Array]) -> tuple[Array, Array] | None:
         return None
 
 
@@ -180,9 +188,9 @@ class SideOf:
         """Signs, zero also where there is no value."""
         return np.sign(np.nan_to_num(self.curve.values(known)))
 
-    def bounds(self, known: Mapping[str, Interval]) -> Interval | None:
+    def bounds(self, first: Mapping[str, Array], last: Mapping[str, Array]) -> tuple[Array, Array] | None:
         """The signs of its bounds."""
-        found = self.curve.bounds(known)
+        found = self.curve.bounds(first, last)
         return None if found is None else (np.sign(found[0]), np.sign(found[1]))
 
 

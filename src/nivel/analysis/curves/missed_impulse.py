@@ -18,7 +18,6 @@ from nivel.analysis.curves.path import Path, Steps, as_seen, cut_at_switches, pa
 from nivel.integrate.facts import IntegratorFacts
 from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.bounds import Interval
 from nivel.machine.units.tree import TIME
 from nivel.results.result import Result
 
@@ -27,8 +26,9 @@ Array = NDArray[np.float64]
 SAMPLES, WINDOWS = 16, 20
 # A part of the run where a function is below this share of its largest mean magnitude counts as if it had that.
 QUIET = 1e-2
-# Bounds that allow this share of the largest magnitude beyond what was sampled are looked into, by so many halvings, so many at once.
-BEYOND, HALVINGS, MOST_INTERVALS = 0.05, 26, 20_000
+# Bounds that allow this share of the largest magnitude beyond what was sampled are looked into, by so many halvings; so many looks a step,
+# and so many beside: a search takes about as long as the steps have taken.
+BEYOND, HALVINGS, LOOKS, MORE_LOOKS = 0.05, 26, 16, 4000
 # Shares from which on it is asked whether the signals go straight between two frames.
 DOUBTFUL = 1e-3
 # Share of the range of a state by which it is moved to find how fast it forgets.
@@ -44,7 +44,7 @@ class Unseen:
     """name : of a function. share : of the integral of its magnitude, over a twentieth of the run, that was missed. At `time` [s] it
     changes by its whole range within `scale` [s], where steps are `step` [s] long. of : what it depends on, the time or a signal.
     hidden : share of the integral of its magnitude over the whole run that was missed where it has more than the steps look at: no finer
-    run need see that either."""
+    run need see that either. whole : the search for narrow features came to its end."""
 
     name: str
     share: float
@@ -53,6 +53,7 @@ class Unseen:
     step: float
     of: str = "time"
     hidden: float = 0.0
+    whole: bool = True
 
 
 def unseen_loads(
@@ -116,9 +117,8 @@ def missed(function: Varying, path: Path, steps: Steps, facts: IntegratorFacts, 
     narrow = _put_right(function, path, steps, places, exact, magnitude)
     features = np.union1d(places.step, _beyond_curve(values, curve))
     hidden = float(np.abs(exact - seen)[features].sum()) / max(float(magnitude.sum()), known, 1e-300)
-    judged = _judged(
-        function, steps, (exact - seen, magnitude - seen_magnitude, magnitude), values, narrow, hidden, known
-    )
+    sums = exact - seen, magnitude - seen_magnitude, magnitude
+    judged = replace(_judged(function, steps, sums, values, narrow, hidden, known), whole=places.whole)
     if len(places.step) or (judged.share < DOUBTFUL and hidden == 0.0):
         return judged
     forgotten = _forgotten(function, path, steps, np.abs(values - curve).max(axis=1))
@@ -166,10 +166,12 @@ def _integrals(values: Array, length: Array) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class Places:
-    """Where a function goes beyond what was sampled: numbers of steps (n,), ascending, and times in them (n,) [s]."""
+    """Where a function goes beyond what was sampled: numbers of steps (n,), ascending, and times in them (n,) [s]. whole : no place was
+    left out because the search would have taken long."""
 
     step: NDArray[np.int64]
     time: Array
+    whole: bool = True
 
     def within(self, step: int) -> Array:
         """The times in one step [s]."""
@@ -184,16 +186,18 @@ def beyond_samples(function: Varying, path: Path, steps: Steps, values: Array, l
     of = np.arange(len(begin))
     largest = max(largest, float(np.abs(values).max()))
     numbers, times = [np.zeros(0, dtype=np.int64)], [np.zeros(0)]
+    left, whole = LOOKS * len(begin) + MORE_LOOKS, True
     for _ in range(HALVINGS):
-        bounds = function.curve.bounds(_intervals(path, begin, width))
+        left -= len(begin)
+        bounds = function.curve.bounds(path.at(begin), path.at(begin + width))
         if bounds is None:
             break
         least, most = bounds
         beyond = np.maximum(np.maximum(most - high, low - least), 0.0)
         floor = max(BEYOND * largest, 1e-6 * float(np.max(beyond, initial=0.0, where=np.isfinite(beyond))))
         keep = np.flatnonzero(beyond > floor)
-        if len(keep) > MOST_INTERVALS:
-            keep = keep[np.argsort(-beyond[keep], kind="stable")[:MOST_INTERVALS]]
+        if 2 * len(keep) > left:
+            whole, keep = False, keep[np.argsort(-beyond[keep], kind="stable")[: max(0, left // 2)]]
         if not len(keep):
             break
         begin, width, of, low, high = begin[keep], width[keep], of[keep], low[keep], high[keep]
@@ -208,7 +212,7 @@ def beyond_samples(function: Varying, path: Path, steps: Steps, values: Array, l
         begin, width, of = np.concatenate([begin, middle]), np.tile(0.5 * width, 2), np.tile(of, 2)
     number, time = np.concatenate(numbers), np.concatenate(times)
     order = np.lexsort((time, number))
-    return Places(number[order], time[order])
+    return Places(number[order], time[order], whole)
 
 
 def _put_right(
@@ -251,12 +255,6 @@ def sampled_densely(function: Varying, path: Path, begin: float, length: float, 
         time = np.insert(time, split + 1, middle)
         values = np.insert(values, split + 1, np.nan_to_num(function.curve.values(path.at(middle))))
     return time, values
-
-
-def _intervals(path: Path, begin: Array, width: Array) -> dict[str, Interval]:
-    """The time and all signals over intervals of time: straight between their ends."""
-    first, last = path.at(begin), path.at(begin + width)
-    return {name: (np.minimum(first[name], last[name]), np.maximum(first[name], last[name])) for name in first}
 
 
 def _judged(

@@ -24,12 +24,12 @@ from nivel.machine.core.vectors import cross
 from nivel.machine.laws.functions import functions_of
 from nivel.machine.laws.symbols import Symbol, UnknownSymbolError, find_symbol
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.bounds import values_of
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.sides import sides
-from nivel.machine.units.tree import TIME, Node, signals
+from nivel.machine.units.tree import TIME, Node, Operation, signals
 from nivel.results.result import Result
 from nivel.results.scales import rotated
+from nivel.system.laws.program import PlacedProgram
 
 Array = NDArray[np.float64]
 AXES = {"x": 0, "y": 1, "z": 2}
@@ -202,9 +202,10 @@ def cut_at_switches(function: Varying, path: Path, steps: Steps) -> Steps:
 def _changes(first: Node, second: Node | None, path: Path) -> Array:
     """Times [s] at which the order of two expressions changes, one at most between two frames."""
 
+    difference = PlacedProgram.of(first if second is None else Operation("-", first, second))
+
     def is_above(time: Array) -> NDArray[np.bool_]:
-        known = path.at(time)
-        return values_of(first, known) > (values_of(second, known) if second is not None else 0.0)
+        return difference.values(path.at(time)) > 0.0
 
     above = is_above(path.time)
     at = np.flatnonzero(above[1:] != above[:-1])

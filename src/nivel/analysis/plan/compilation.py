@@ -7,6 +7,7 @@ from contextlib import contextmanager, nullcontext
 from importlib import import_module
 from time import perf_counter
 
+from nivel.analysis.curves.functions import ExpressionCurve, varying
 from nivel.analysis.curves.path import has_switches
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.progress.log import Listener
@@ -47,6 +48,7 @@ MEASURE, FRICTION = "nivel.kernels.bodies.measure", "nivel.kernels.elements.fric
 SENSOR, WATCH = "nivel.kernels.signals.sensor", "nivel.kernels.signals.watch"
 SAMPLING = "nivel.kernels.signals.functions:sample"
 HEIGHT_WAY = "nivel.elements.contacts.height_way"
+VALUES, BOUNDS = "nivel.kernels.record.program:find_values", "nivel.kernels.record.program_bounds"
 GIVEN_FRICTION, RAIL = "nivel.kernels.residual.friction_residual", "nivel.kernels.bodies.rail"
 OF_BEAMS = "nivel.elements.beams.exact_slopes"
 POINTS = "nivel.kernels.residual.point_inertia"
@@ -67,7 +69,7 @@ COMPLETIONS = tuple(
 
 # all modules that some machines, runs or trees need
 OF_MACHINES = (MEASURE, FRICTION, RAIL, POINTS, SENSOR, WATCH, HEIGHT_WAY, SAMPLING, OF_BEAMS, GIVEN_FRICTION)
-OF_RUNS = (LOOP, FOLLOWING, PACED, REPEATED, STATICS, TANGENT_ENTRIES, OUTPUT, SHARED_LOADS)
+OF_RUNS = (LOOP, VALUES, BOUNDS, FOLLOWING, PACED, REPEATED, STATICS, TANGENT_ENTRIES, OUTPUT, SHARED_LOADS)
 OF_TREES = (OF_FRAMES, OF_MODES, OF_SLIDERS, PASSING, IMPLICIT_ACCELERATIONS, *COMPLETIONS)
 
 
@@ -170,6 +172,8 @@ def run_entries(plan: Plan) -> list[Entry]:
     modules = [LOOP, *([WATCH] if _watches(methods.machine, methods.chooses_steps) else [])]
     if any(isinstance(force, Contact) and force.heights is not None for force in methods.machine.forces):
         modules.append(HEIGHT_WAY)
+    if any(isinstance(each.curve, ExpressionCurve) for each in varying(methods.machine)):
+        modules += [VALUES, BOUNDS]
     path = methods.path
     if methods.machine.is_flexible:
         modules += [OF_FRAMES, f"{ASSEMBLY}:evaluate"]  # singular positions are searched for in absolute coordinates

@@ -67,7 +67,7 @@ class RunOutcome:
     events : in the order of time. stopped_by : name of the event that ended the run. asked_to_stop : Ctrl-C came; also while the last
     steps were made, so that the run itself is done. pace : of `nivel.integrate.loop.run.Run`. last : (time [s], y) at the end, of a
     run that failed in the last state that was accepted. status : of the compiled loop.
-    ends : (n,) [s] the start and the ends of all steps, where steps were chosen and looked at; impulses : of `NarrowFeatures`.
+    ends : (n,) [s] the start and the ends of all steps, where steps were chosen and looked at; impulses, hurried : of `NarrowFeatures`.
     went_on : the integrator that went on where the run became stiff, and from when [s].
     between_frames : of `Probes`. work : of `nivel.analysis.progress.pacing`.
     """
@@ -83,6 +83,7 @@ class RunOutcome:
     status: int = Status.DONE
     ends: Array | None = None
     impulses: dict[str, float] = field(default_factory=dict)
+    hurried: set[str] = field(default_factory=set)
     went_on: tuple[str, float] | None = None
     between_frames: dict[str, list[float]] = field(default_factory=dict)
     work: int = 0
@@ -171,7 +172,7 @@ def march(
         (run.previous if failed else run.y).copy(),
     )
     if narrow is not None:
-        finished.ends, finished.impulses = narrow.ends, narrow.impulses
+        finished.ends, finished.impulses, finished.hurried = narrow.ends, narrow.impulses, narrow.hurried
     finished.timing = {
         **counts_of(system, run),
         "loop_seconds": loop_seconds,

@@ -54,8 +54,8 @@ def remembered(run: Run, motion: MotionEquations) -> list[NDArray[Any]]:
 class NarrowFeatures:
     """Looks at each stretch of a run, and keeps its frames and events until it may stand.
 
-    functions : those that the motion depends on. impulses : of functions by name the
-    largest integral of the magnitude over a step that passed a feature.
+    functions : those that the motion depends on. impulses : of functions by name the largest integral of the magnitude over a step that
+    passed a feature. hurried : names of those whose search would have taken longer than the steps.
     """
 
     def __init__(
@@ -75,6 +75,7 @@ class NarrowFeatures:
         self._before = np.zeros((0, motion.system.layout.width))
         self._largest: dict[str, float] = {}
         self.impulses: dict[str, float] = {}
+        self.hurried: set[str] = set()
         self._ends: list[Array] = [np.zeros(1)]
 
     @classmethod
@@ -204,7 +205,9 @@ class NarrowFeatures:
         values = _sampled(function, path, steps)
         largest = max(self._largest.get(function.name, 0.0), float(np.abs(values).max()))
         self._largest[function.name] = largest
-        passed = beyond_samples(function, path, steps, _known(function, values), largest).step
+        places = beyond_samples(function, path, steps, _known(function, values), largest)
+        self.hurried |= set() if places.whole else {function.name}
+        passed = places.step
         if is_side:
             passed = np.union1d(passed, np.flatnonzero(np.count_nonzero(np.diff(values, axis=1), axis=1) > 1))
         else:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from functools import cached_property
 from itertools import product
 from typing import Any, Final
@@ -32,10 +33,9 @@ from nivel.judge.finding import Finding
 from nivel.lazy import dataclass
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.bounds import values_of
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.quantity import PlainVolume
-from nivel.machine.units.tree import TIME
+from nivel.machine.units.tree import ExpressionError, Time, leaves
 from nivel.machine.uses.hydraulic_uses import makers, ports_of
 
 Said = Iterator[Finding]
@@ -280,11 +280,13 @@ def _largest_of(command: Any, ranges: Mapping[str, tuple[float, float]], duratio
         or not ranges.keys() >= {*command.signals}
     ):
         return 0.0
-    time = np.linspace(0.0, duration, 201)
+    times = np.linspace(0.0, duration, 201 if Time() in leaves(command.tree) else 1).tolist()
     largest = 0.0
     for ends in product(*(ranges[path] for path in command.signals)):
-        known = {path: np.full(len(time), end) for path, end in zip(command.signals, ends, strict=True)}
-        largest = max(largest, float(np.nanmax(np.abs(values_of(command.tree, {TIME: time, **known})), initial=0.0)))
+        known = dict(zip(command.signals, ends, strict=True))
+        for time in times:
+            with suppress(ExpressionError):  # where it has no value
+                largest = max(largest, abs(command(time, known)))
     return largest
 
 

@@ -16,7 +16,9 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import absolute, arctan2, maximum, minimum, real, tanh
 from nivel.kernels.record.hook import law
+from nivel.native.entry import entry
 from nivel.native.function import leaf
+from nivel.native.signature import Signature
 
 LENGTH = 4  # of an instruction
 # the end, which gives the value at its place; operations of two operands, and of one
@@ -127,8 +129,8 @@ def side(difference, held):
     return 2.0 * found - 1.0 if real(held) == 0.0 else real(held) + 0.0 * found
 
 
-@law
-def run(row):
+@leaf
+def follow(row):
     """Value of the program that the row begins with."""
     at, holds = np.uint64(0), 1.0
     while True:
@@ -145,3 +147,19 @@ def run(row):
         else:
             row[to] = operate(operation, row[place(row[at + 2])], row[place(row[at + 3])], row[to])
         at += np.uint64(LENGTH)
+
+
+@law
+def run(row):
+    """Value of the program that the row begins with."""
+    return follow(row)
+
+
+@entry(Signature("nothing", ("vector", "vector", "count", "vector")))
+def find_values(row, places, count, out):
+    """out (n,) := values at n places. row : the program, behind which `count` arguments stand. places : (n, count) these."""
+    first = row.shape[0] - count
+    for n in range(out.shape[0]):
+        for k in range(count):
+            row[first + k] = places[count * n + k]
+        out[n] = follow(row)

@@ -1,8 +1,8 @@
-"""Table of the functions of expressions: for each its value, bounds, derivative, units, operation of a program, and corners.
+"""Table of the functions of expressions: for each its value, derivative, units, operation of a program, and corners.
 
-A row is all that is known of a function. Everything that reads expressions reads the table: values at a point (arithmetic.py), on arrays
-and over intervals (bounds.py), derivatives (derivative.py), units (measure.py, plain_factors.py), programs (system/laws/program.py),
-corners and jumps (analysis/curves). The page for users lists the rows.
+A row is all that is known of a function. Everything that reads expressions reads the table: values at a point (arithmetic.py), derivatives
+(derivative.py), units (measure.py, plain_factors.py), programs (system/laws/program.py), corners and jumps (analysis/curves). The page for
+users lists the rows.
 """
 
 from __future__ import annotations
@@ -12,12 +12,9 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property, lru_cache
 from typing import Final, Literal, NamedTuple, TypeVar
 
-import numpy as np
-
 from nivel.lazy import dataclass
-from nivel.machine.units import intervals, tree
+from nivel.machine.units import tree
 from nivel.machine.units.grammar import parse
-from nivel.machine.units.intervals import Array, Interval
 
 Argument = TypeVar("Argument")
 Pair = tuple[tree.Node, tree.Node | None]
@@ -80,8 +77,7 @@ class FunctionKind:
     arguments : their names. more : further arguments may follow, of which the value is that of the first two, and so on
     meaning : one line for the page on numbers
     form : the value in terms of other functions. What the row does not say follows from it
-    value, array : of floats and of arrays, as the math module and numpy have them
-    bounds : over intervals; without them the value rises with each argument within the `domain` of each
+    value : of floats, as the math module has it
     derivative : with respect to time, where dx is the rate of an argument x; arguments without a rate in it must be constant.
         There is none of a function with sides or jumps of its own. smooth : text of what is smooth instead
     operation : of `nivel.kernels.record.program`
@@ -95,9 +91,6 @@ class FunctionKind:
     units: Units
     operation: str = ""
     value: Callable[..., float] | None = None
-    array: np.ufunc | Callable[..., Array] | None = None
-    bounds: Callable[..., Interval] | None = None
-    domain: tuple[float, float] = (-np.inf, np.inf)
     form: str = ""
     derivative: str = ""
     smooth: str = ""
@@ -178,41 +171,26 @@ _SMOOTH: Final = "step(time, t0, a, t1, b)"
 
 # fmt: off
 FUNCTIONS: Final[dict[str, FunctionKind]] = {
-    "sin": FunctionKind("x", "sine", OF_ANGLE, "SIN", math.sin, np.sin, intervals.sine, derivative="cos(x)*dx"),
-    "cos": FunctionKind("x", "cosine", OF_ANGLE, "COS", math.cos, np.cos, intervals.cosine, derivative="-sin(x)*dx"),
-    "tan": FunctionKind("x", "tangent", OF_ANGLE, "TAN", math.tan, np.tan, intervals.tangent, derivative="(1 + tan(x)^2)*dx"),
-    "asin": FunctionKind(
-        "x", "angle with this sine, -π/2 to π/2", ANGLE_OF, "ASIN", math.asin, np.arcsin,
-        domain=(-1.0, 1.0), derivative="1/sqrt(1 - x*x)*dx",
-    ),
-    "acos": FunctionKind(
-        "x", "angle with this cosine, 0 to π", ANGLE_OF, "ACOS", math.acos, np.arccos, intervals.arc_cosine,
-        derivative="-(1/sqrt(1 - x*x))*dx",
-    ),
-    "atan": FunctionKind(
-        "x", "angle with this tangent, -π/2 to π/2", ANGLE_OF, "ATAN", math.atan, np.arctan, derivative="1/(1 + x*x)*dx",
-    ),
+    "sin": FunctionKind("x", "sine", OF_ANGLE, "SIN", math.sin, derivative="cos(x)*dx"),
+    "cos": FunctionKind("x", "cosine", OF_ANGLE, "COS", math.cos, derivative="-sin(x)*dx"),
+    "tan": FunctionKind("x", "tangent", OF_ANGLE, "TAN", math.tan, derivative="(1 + tan(x)^2)*dx"),
+    "asin": FunctionKind("x", "angle with this sine, -π/2 to π/2", ANGLE_OF, "ASIN", math.asin, derivative="1/sqrt(1 - x*x)*dx"),
+    "acos": FunctionKind("x", "angle with this cosine, 0 to π", ANGLE_OF, "ACOS", math.acos, derivative="-(1/sqrt(1 - x*x))*dx"),
+    "atan": FunctionKind("x", "angle with this tangent, -π/2 to π/2", ANGLE_OF, "ATAN", math.atan, derivative="1/(1 + x*x)*dx"),
     "atan2": FunctionKind(
-        "y x", "angle of the point (x, y), -π to π", Units((Alike(0.0),), is_angle=True), "ATAN2", math.atan2, np.arctan2,
-        intervals.polar_angle, derivative="(x*dy - y*dx)/(x*x + y*y)",
+        "y x", "angle of the point (x, y), -π to π", Units((Alike(0.0),), is_angle=True), "ATAN2", math.atan2,
+        derivative="(x*dy - y*dx)/(x*x + y*y)",
     ),
-    "sqrt": FunctionKind(
-        "x", "square root", Units((Alike(0.5),)), "SQRT", math.sqrt, np.sqrt, domain=(0.0, np.inf), derivative="1/(2*sqrt(x))*dx",
-    ),
-    "exp": FunctionKind("x", "exponential function", OF_NUMBER, "EXP", math.exp, np.exp, derivative="exp(x)*dx"),
-    "log": FunctionKind(
-        "x", "natural logarithm", OF_NUMBER, "LOG", math.log, np.log, domain=(0.0, np.inf), derivative="1/x*dx",
-    ),
-    "abs": FunctionKind(
-        "x", "absolute value", SAME, "ABS", math.fabs, np.abs, intervals.absolute,
-        sides=_sign_decides, choice="if(-x, -x, x)",
-    ),
+    "sqrt": FunctionKind("x", "square root", Units((Alike(0.5),)), "SQRT", math.sqrt, derivative="1/(2*sqrt(x))*dx"),
+    "exp": FunctionKind("x", "exponential function", OF_NUMBER, "EXP", math.exp, derivative="exp(x)*dx"),
+    "log": FunctionKind("x", "natural logarithm", OF_NUMBER, "LOG", math.log, derivative="1/x*dx"),
+    "abs": FunctionKind("x", "absolute value", SAME, "ABS", math.fabs, sides=_sign_decides, choice="if(-x, -x, x)"),
     "min": FunctionKind(
-        "x y", "the smallest of two or more values", SAME, "MIN", min, np.minimum,
+        "x y", "the smallest of two or more values", SAME, "MIN", min,
         more=True, sides=_order_decides, choice="if(x - y, y, x)",
     ),
     "max": FunctionKind(
-        "x y", "the largest of two or more values", SAME, "MAX", max, np.maximum,
+        "x y", "the largest of two or more values", SAME, "MAX", max,
         more=True, sides=_order_decides, choice="if(y - x, y, x)",
     ),
     "step": FunctionKind(
@@ -235,15 +213,12 @@ FUNCTIONS: Final[dict[str, FunctionKind]] = {
     ),
     "if": FunctionKind(
         "condition a b", "`a` if the condition is true, else `b`", Units((Alike(1.0, (1, 2), "values of one `if`"),)), "CHOOSE",
-        array=lambda condition, yes, no: np.where(condition > 0.0, yes, no), bounds=intervals.choice,
         smooth=_SMOOTH, sides=_sign_decides, jumps=True,
     ),
     "not": FunctionKind("x", "1 if x is false, else 0", PURE, form="x <= 0", sides=_sign_decides, jumps=True, is_truth=True),
     "sign": FunctionKind("x", "-1, 0 or 1", PURE, form="(0 < x) - (x < 0)", sides=_sign_decides, jumps=True),
-    "floor": FunctionKind("x", "the largest integer ≤ x", PURE, "FLOOR", math.floor, np.floor, jumps=True),
+    "floor": FunctionKind("x", "the largest integer ≤ x", PURE, "FLOOR", math.floor, jumps=True),
     "mod": FunctionKind("x y", "the remainder of x divided by y", SAME, form="x - y*floor(x/y)", jumps=True),
-    "tanh": FunctionKind(
-        "x", "hyperbolic tangent", OF_NUMBER, "TANH", math.tanh, np.tanh, derivative="(1 - tanh(x)^2)*dx",
-    ),
+    "tanh": FunctionKind("x", "hyperbolic tangent", OF_NUMBER, "TANH", math.tanh, derivative="(1 - tanh(x)^2)*dx"),
 }
 # fmt: on

@@ -84,18 +84,6 @@ def interpolated(kind: str, points: Sequence[float], values: Sequence[float], x:
     return float(np.polynomial.polynomial.polyval(x - points[k], _curve(kind, tuple(points), tuple(values), order)[k]))
 
 
-def curve_of(
-    kind: str, points: Sequence[float], values: Sequence[float], order: int = 0
-) -> tuple[NDArray[np.float64], NDArray[np.float64], float, float]:
-    """Points, coefficients (n - 1, 6) of the pieces between them, and what holds before the first and from the last point on, of a curve or
-    of its derivative."""
-    curve = _curve(kind, tuple(points), tuple(values), order)
-    before, behind = (values[0], values[-1]) if order == 0 else (0.0, 0.0)
-    if kind == PERIODIC:
-        before = behind = float(curve[0, 0])
-    return np.array(points), curve, before, behind
-
-
 @lru_cache(maxsize=100)
 def _curve(kind: str, points: tuple[float, ...], values: tuple[float, ...], order: int) -> NDArray[np.float64]:
     return differentiated(pieces(kind, points, values), order)

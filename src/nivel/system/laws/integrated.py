@@ -18,10 +18,10 @@ from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
 from nivel.machine.units.arithmetic import evaluate
-from nivel.machine.units.bounds import values_of
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.sides import marks
 from nivel.machine.units.tree import TIME, ExpressionError, Lookup, Node, Time
+from nivel.system.laws.program import PlacedProgram
 
 Array = NDArray[np.float64]
 COEFFICIENTS = 6
@@ -182,7 +182,7 @@ def _corners(function: TimeFunction, end: float) -> Array:
     if isinstance(function, Expression | Table):
         grid = np.linspace(0.0, end, LOOKS + 1)
         for mark in marks(function):
-            above = values_of(mark, {TIME: grid}) >= 0.0
+            above = PlacedProgram.of(mark).values({TIME: grid}) >= 0.0
             k = np.flatnonzero(above[1:] != above[:-1])
             if 0 < len(k) <= CORNERS:
                 found.append(_passed(mark, grid[k], grid[k + 1], above[k]))
@@ -192,9 +192,10 @@ def _corners(function: TimeFunction, end: float) -> Array:
 
 def _passed(mark: Node, low: Array, high: Array, above: NDArray[np.bool_]) -> Array:
     """Where `mark` passes zero between `low` and `high`, by halving. above : whether it is not below zero at `low`."""
+    program = PlacedProgram.of(mark)
     for _ in range(60):
         middle = 0.5 * (low + high)
-        same = (values_of(mark, {TIME: middle}) >= 0.0) == above
+        same = (program.values({TIME: middle}) >= 0.0) == above
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     return high
 
@@ -211,7 +212,7 @@ def _evaluated(function: TimeFunction, t: Array) -> Array:
     """Raises ModelError where the function has no finite value."""
     tree = _tree(function)
     if tree is not None:
-        out = values_of(tree, {TIME: t.ravel()}).reshape(t.shape)
+        out = PlacedProgram.of(tree).values({TIME: t.ravel()}).reshape(t.shape)
         if np.isfinite(out).all():
             return out
     value = partial(evaluate, function.tree) if isinstance(function, Expression) else function

@@ -9,7 +9,7 @@ At the time 0 nothing is later: a machine is in equilibrium, and starts, with wh
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +46,28 @@ def expression_program(
     program = _Program(signals, beyond=beyond and jumps(expression.tree, is_of_time_alone))
     program.end(program.place_of(expression.tree))
     return program.row()
+
+
+@dataclass(frozen=True)
+class PlacedProgram:
+    """The row of a program with places for its arguments, and what these are: the time first, then signals by their paths."""
+
+    row: NDArray[np.float64]
+    paths: tuple[str, ...]
+
+    @classmethod
+    def of(cls, tree: Node) -> PlacedProgram:
+        """Of a tree of the time and of signals."""
+        program, paths = _Program((TIME, *signals(tree))), (TIME, *signals(tree))
+        program.end(program.place_of(tree))
+        return cls(np.array([*program.row(), *(0.0 for _ in paths)]), paths)
+
+    def values(self, known: Mapping[str, NDArray[np.float64]]) -> NDArray[np.float64]:
+        """Values (n,); known : values (n,) of the time and of each signal. Not a number where there is none."""
+        places = np.column_stack([known[path] for path in self.paths])
+        out = np.empty(len(places))
+        kernel.find_values(self.row, places.ravel(), len(self.paths), out)
+        return out
 
 
 def _in_period(argument: Node, points: Sequence[float]) -> Node:

@@ -99,7 +99,9 @@ def _unseen_by(run: Run) -> list[Unseen]:
     if steps is None:
         return []
     known = run.finished.impulses
-    return list(unseen_loads(run.machine, run.result, steps, run.prepared.integrator, chosen=chosen, known=known))
+    found = list(unseen_loads(run.machine, run.result, steps, run.prepared.integrator, chosen=chosen, known=known))
+    run.finished.hurried |= {each.name for each in found if not each.whole}
+    return found
 
 
 def _agreed(run: Run) -> float | None:
@@ -237,12 +239,13 @@ NAMED = 6  # names in a sentence
 
 @dataclass(frozen=True)
 class Unexamined:
-    """Names of functions that read a signal which is not in the result, of Python laws, which are known at samples only, and of contacts
-    with more fast pairs than *Contact* looks at."""
+    """Names of functions that read a signal which is not in the result, of Python laws, which are known at samples only, of contacts with
+    more fast pairs than *Contact* looks at, and of functions whose bounds stay wide for longer than the steps take."""
 
     functions: tuple[str, ...]
     laws: tuple[str, ...]
     contacts: tuple[str, ...] = ()
+    hurried: tuple[str, ...] = ()
 
 
 def look_for_unexamined(run: Run) -> Unexamined | None:
@@ -250,8 +253,8 @@ def look_for_unexamined(run: Run) -> Unexamined | None:
     every = list(varying(run.machine))
     hidden = tuple(each.name for each in every if path_of(each, run.machine, run.result) is None)
     laws = tuple(each.name for each in every if isinstance(each.curve, LawCurve) and each.name not in hidden)
-    contacts = run.passing.unexamined
-    return Unexamined(hidden, laws, contacts) if hidden or laws or contacts else None
+    found = Unexamined(hidden, laws, run.passing.unexamined, tuple(sorted(run.finished.hurried)))
+    return found if hidden or laws or found.contacts or found.hurried else None
 
 
 def say_unexamined(found: Unexamined) -> Item:
@@ -264,6 +267,10 @@ def say_unexamined(found: Unexamined) -> Item:
     if found.laws:
         said.append(
             f"what {first_of(found.laws, NAMED)} may do within a sixteenth of a step: Python functions have no bounds"
+        )
+    if found.hurried:
+        said.append(
+            f"what {first_of(found.hurried, NAMED)} may do within a sixteenth of a step: to know it takes longer than the run"
         )
     if found.contacts:
         said.append(f"whether bodies pass through each other within a step at {first_of(found.contacts, NAMED)}")

@@ -48,3 +48,4 @@ from nivel.elements.control.state_machine import StateMachine as StateMachine
 from nivel.elements.control.units import CBlock as CBlock
 from nivel.elements.control.units import FmuBlock as FmuBlock
 from nivel.elements.control.units import UserBlock as UserBlock
+from nivel.elements.control.vehicle_driver import VehicleDriver as VehicleDriver

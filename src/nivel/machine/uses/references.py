@@ -35,6 +35,12 @@ CONTROL_KEYS: Final = (
     "then",
     "otherwise",
     "law",
+    "x",
+    "y",
+    "heading",
+    "steering",
+    "speed",
+    "target",
 )
 SHARING: Final = {"beams": "bodies and beams", "control": "states and blocks of the control"}
 _SHAPES: Final = ("box", "cylinder", "capsule", "tube", "sphere", "ellipsoid", "extrusion", "mesh")

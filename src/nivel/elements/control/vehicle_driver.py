@@ -1,0 +1,136 @@
+"""Driver of a vehicle: steers along a course with preview, or as told, and holds a speed with two pedals.
+
+He looks `preview` seconds ahead along the course, and takes the circle through the place where he is, along his heading, and the place
+that he sees: curvature 2 e/l² for a place at the distance l, e to the left (Wallace et al. 1985; the preview is that of MacAdam 1981). The
+angle is (wheelbase + understeer v²) times that, as of the linear single track. His station on the course is where ṡ = v cos(ψ - ψ_c) + a/τ
+leads, with what the vehicle is ahead of it, a.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import BeforeValidator
+
+from nivel.elements.kind import Kind
+from nivel.machine.control.block import Block, Input, Matrix, NotNegativeTime, Number, PositiveNumber
+from nivel.machine.control.part import Part
+from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.given import Field, Maybe
+from nivel.machine.laws.table import Table
+from nivel.machine.units.formula import formula, linear
+from nivel.machine.units.interpolation import pieces
+from nivel.machine.units.quantity import Duration
+
+FOUND = 0.2  # τ [s]
+FEWEST = 3  # points of a course
+ALONG = ("x", "y", "heading", "wheelbase")  # what a course needs
+
+
+class VehicleDriver(Block):
+    """Angle of the front wheels along a `course` or as `steering` says; pedals by the speed."""
+
+    quantities = ("value", "throttle", "brake", "deviation", "station")
+
+    type: Literal["vehicle-driver"] = "vehicle-driver"
+    speed: Input = Field(description="measured speed forwards")
+    target: Input = Field(default=0.0, description="speed that he holds; with none he brakes")
+    gain: PositiveNumber = Field(default=0.5, description="pedal, up to 1, by missing speed, s/m")
+    steering: Maybe[Input] = Field(default=None, description="angle of the front wheels, in place of a `course`")
+    course: Maybe[Annotated[Matrix, BeforeValidator(list)]] = Field(
+        default=None, description="points `[x, y]` from where he starts, in m; a cubic spline goes through them"
+    )
+    x: Maybe[Input] = Field(default=None, description="with a `course`: measured place")
+    y: Maybe[Input] = Field(default=None, description="with a `course`: measured place")
+    heading: Maybe[Input] = Field(default=None, description="with a `course`: measured yaw angle")
+    wheelbase: Maybe[PositiveNumber] = Field(default=None, description="with a `course`: distance of the axles")
+    understeer: Number = Field(default=0.0, description="steering angle by lateral acceleration, rad s²/m")
+    preview: Duration = Field(default=0.8, description="time that he looks ahead")
+    lag: NotNegativeTime = Field(default=0.0, description="time constant with which he steers along a course")
+    limit: PositiveNumber = Field(default=0.6, description="greatest steering angle, rad")
+
+    def computation(self) -> tuple[Part, ...]:
+        parts = [self.present("own_speed", self.speed, key="speed"), self.present("wished", self.target, key="target")]
+        if self.steering is not None:
+            parts.append(self.present(self.output, self.steering, key="steering"))
+        else:
+            parts += self._along()
+        names = {"target": self.path("wished"), "speed": self.path("own_speed"), "gain": self.gain}
+        parts.append(self.present("throttle", formula("min(max(gain*(target - speed), 0), 1)", **names)))
+        parts.append(
+            self.present("brake", formula("if(target <= 0, 1, min(max(gain*(speed - target), 0), 1))", **names))
+        )
+        return tuple(parts)
+
+    def _along(self) -> Iterator[Part]:
+        for name in ("x", "y", "heading"):
+            yield self.present(f"own_{name}", getattr(self, name), key=name)
+        points = np.array(self.course)
+        s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+        slopes = [_slopes(s, each) for each in points.T]
+        courses = {"place_x": points[:, 0], "place_y": points[:, 1], "slope_x": slopes[0], "slope_y": slopes[1]}
+        yield self.present("ahead", linear((1.0, self.path("station")), (self.preview, self.path("own_speed"))))
+        for name, values in courses.items():
+            yield self.present(name, Table(tuple(s), tuple(values), "cubic", self.path("station")))
+        for name in ("place_x", "place_y"):
+            yield self.present(f"aim_{name[-1]}", Table(tuple(s), tuple(courses[name]), "cubic", self.path("ahead")))
+        own = {name: self.path(f"own_{name}") for name in ("x", "y", "heading", "speed")}
+        own |= {name: self.path(name) for name in (*courses, "aim_x", "aim_y", "station")}
+        size = "sqrt(slope_x^2 + slope_y^2)"
+        yield self.present(
+            "deviation",
+            formula(f"((y - place_y)*slope_x - (x - place_x)*slope_y)/{size}", **_only(own, *courses, "x", "y")),
+        )
+        rate = f"(speed*(slope_x*cos(heading) + slope_y*sin(heading)) + ((x - place_x)*slope_x + (y - place_y)*slope_y)/found)/{size}"
+        known = _only(own, *courses, "x", "y", "heading", "speed")
+        after = formula(
+            f"station + step*{rate}", found=max(FOUND, self.period), step=self.period, station=own["station"], **known
+        )
+        yield self.remembered("station", formula(rate, found=FOUND, **known), after)
+        bend = "2*((aim_y - y)*cos(heading) - (aim_x - x)*sin(heading))/max((aim_x - x)^2 + (aim_y - y)^2, 0.01)"
+        angle = f"min(max((wheelbase + understeer*speed^2)*{bend}, -limit), limit)"
+        of_angle = _only(own, "aim_x", "aim_y", "x", "y", "heading", "speed")
+        numbers = {"wheelbase": self.wheelbase or 0.0, "understeer": self.understeer, "limit": self.limit}
+        if not self.lag:
+            yield self.present(self.output, formula(angle, **of_angle, **numbers))
+            return
+        yield self.present("wanted", formula(angle, **of_angle, **numbers))
+        wanted, steered, time = self.path("wanted"), self.path("steered"), max(self.lag, self.period)
+        share = self.period / time
+        yield self.remembered(
+            "steered",
+            linear((1.0 / time, wanted), (-1.0 / time, steered)),
+            linear((1.0 - share, steered), (share, wanted)),
+        )
+        yield self.present(self.output, linear((1.0, steered)))
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if (self.course is None) == (self.steering is None):
+            yield Problem((), "a driver needs a `course`, points `[x, y]`, or `steering`, an angle; one of them")
+        for key in ALONG:
+            if self.course is not None and getattr(self, key) is None:
+                yield Problem((), f"`{key}` is missing: a driver along a `course` measures where he is")
+            if self.course is None and getattr(self, key) is not None:
+                yield superfluous(key, "belongs to a `course`, and none is given")
+        if self.course is not None:
+            if len(self.course) < FEWEST or any(len(row) != 2 for row in self.course):
+                yield Problem(("course",), f"{FEWEST} or more points `[x, y]` were expected")
+            elif not np.hypot(*np.diff(np.array(self.course), axis=0).T).all():
+                yield Problem(("course",), "two points beside each other are the same")
+
+
+def _only(names: dict[str, str], *wanted: str) -> dict[str, str]:
+    return {name: names[name] for name in wanted}
+
+
+def _slopes(s: np.ndarray, values: np.ndarray) -> list[float]:
+    """Of the cubic spline through `values` at `s`, there."""
+    own = pieces("cubic", tuple(s), tuple(values))
+    h = s[-1] - s[-2]
+    return [*own[:, 1], float(own[-1, 1] + 2.0 * own[-1, 2] * h + 3.0 * own[-1, 3] * h * h)]
+
+
+KINDS = (Kind(VehicleDriver),)

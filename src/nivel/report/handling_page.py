@@ -1,0 +1,159 @@
+"""Handling of a vehicle: histories of a manoeuvre in the axes of the level vehicle, its numbers, and the page of all manoeuvres."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.lazy import dataclass
+from nivel.report.page import page
+from nivel.report.plots import Line, curves, path_drawing
+from nivel.results.result import Result
+
+Array = NDArray[np.float64]
+Numbers = dict[str, tuple[float, str]]  # value and unit by name
+G = 9.80665
+LINEAR = 2.0  # [m/s²] of lateral acceleration, up to which a gradient is taken
+SETTLED = 0.1  # of the greatest yaw rate, within which the end of a step is steady
+NOTE = "x forwards, y to the left; accelerations without gravity, of the origin of the body."
+
+
+@dataclass(frozen=True)
+class Manoeuvre:
+    """(n,) time, steering angle, speeds and accelerations along and across, yaw, its rate, roll, place; SI. `name` of the manoeuvre."""
+
+    name: str
+    time: Array
+    steering: Array
+    vx: Array
+    vy: Array
+    ax: Array
+    ay: Array
+    yaw: Array
+    yaw_rate: Array
+    roll: Array
+    x: Array
+    y: Array
+
+    @classmethod
+    def of(cls, name: str, run: Result, body: int, driver: str) -> Manoeuvre:
+        """Of a run, the body of this number and the block that drives."""
+        p, v, a = (run.array(each)[:, body] for each in ("position", "velocity", "acceleration"))
+        e0, e1, e2, e3 = run.array("orientation")[:, body].T
+        yaw = np.unwrap(np.arctan2(2.0 * (e0 * e3 + e1 * e2), 1.0 - 2.0 * (e2**2 + e3**2)))
+        roll = np.arctan2(2.0 * (e0 * e1 + e2 * e3), 1.0 - 2.0 * (e1**2 + e2**2))
+        c, s = np.cos(yaw), np.sin(yaw)
+        along, across = (
+            (each[:, 0] * c + each[:, 1] * s for each in (v, a)),
+            (each[:, 1] * c - each[:, 0] * s for each in (v, a)),
+        )
+        (vx, ax), (vy, ay) = along, across
+        rate = run.array("angular_velocity")[:, body, 2]
+        return cls(name, run.time, run.array(f"control.{driver}"), vx, vy, ax, ay, yaw, rate, roll, p[:, 0], p[:, 1])
+
+
+def circle_numbers(m: Manoeuvre, wheelbase: float) -> Numbers:
+    """Gradients by lateral acceleration v r of a slow ramp at one speed (ISO 4138): of steering less L r/v, side slip and roll."""
+    lateral = m.vx * m.yaw_rate
+    small = (np.abs(lateral) > 0.1 * LINEAR) & (np.abs(lateral) < LINEAR)
+    if np.count_nonzero(small) < 4:
+        return {"greatest lateral acceleration": (float(np.max(np.abs(m.ay))), "m/s²")}
+    of = {
+        "understeer gradient": m.steering - wheelbase * m.yaw_rate / m.vx,
+        "side slip gradient": np.arctan2(m.vy, m.vx) + 0.0 * lateral,
+        "roll gradient": m.roll,
+    }
+    # the slope at zero: forces bend by |x| x (brushes) and x³
+    bend = lateral * np.abs(lateral), lateral**3
+    rows = np.stack([np.ones_like(lateral), lateral, *bend], axis=1)[small]
+    slopes = {name: float(np.linalg.lstsq(rows, each[small], rcond=None)[0][1]) for name, each in of.items()}
+    out: Numbers = {name: (np.degrees(slope) * G, "°/g") for name, slope in slopes.items()}
+    k = slopes["understeer gradient"]
+    if k != 0.0:
+        out["characteristic speed" if k > 0 else "critical speed"] = float(np.sqrt(wheelbase / abs(k))), "m/s"
+    return {**out, "greatest lateral acceleration": (float(np.max(np.abs(m.ay))), "m/s²")}
+
+
+def step_numbers(m: Manoeuvre) -> Numbers:
+    """Of a step of steering (ISO 7401): gain, time from half of the steering to 90 % of the yaw rate, its peak and overshoot."""
+    end = float(m.yaw_rate[-1])
+    half = float(np.interp(0.5, m.steering / m.steering[-1], m.time))
+    shares = m.yaw_rate / end
+    peak = int(np.argmax(shares))
+    first = int(np.argmax(shares > 0.9))
+    rise = float(np.interp(0.9, shares[first - 1 : first + 1], m.time[first - 1 : first + 1])) - half
+    swing = float(np.ptp(m.yaw_rate[m.time > m.time[-1] - 0.5])) / abs(end)
+    out = {"yaw rate gain": (end / float(m.steering[-1]), "1/s"), "response time of the yaw rate": (rise, "s"),
+           "peak response time": (float(m.time[peak]) - half, "s"), "overshoot of the yaw rate": (100.0 * (float(shares[peak]) - 1.0), "%"),
+           "lateral acceleration": (float(m.ay[-1]), "m/s²")}  # fmt: skip
+    return out | ({"not yet steady: change in the last half second": (100.0 * swing, "%")} if swing > SETTLED else {})
+
+
+def lane_numbers(m: Manoeuvre, gates: list[tuple[float, float, float, float]], width: float) -> Numbers:
+    """Of a lane change between gates (begin, end, right, left): what passes the middle of the vehicle by, with half of its width."""
+    beyond = [
+        np.maximum(right - (m.y - 0.5 * width), m.y + 0.5 * width - left)[(m.x >= begin) & (m.x <= end)]
+        for begin, end, right, left in gates
+    ]
+    worst = max((float(np.max(each)) for each in beyond if len(each)), default=float("nan"))
+    speed, turns = np.hypot(m.vx, m.vy), np.degrees(float(np.max(np.abs(m.yaw_rate))))
+    passed = "beyond the gates" if worst > 0.0 else "room left in the gates"
+    return {passed: (abs(worst), "m"), "speed at the first gate": (float(np.interp(gates[0][0], m.x, speed)), "m/s"),
+            "speed at the last gate": (float(np.interp(gates[-1][1], m.x, speed)), "m/s"),
+            "greatest lateral acceleration": (float(np.max(np.abs(m.ay))), "m/s²"), "greatest yaw rate": (turns, "°/s"),
+            "greatest steering": (np.degrees(float(np.max(np.abs(m.steering)))), "°")}  # fmt: skip
+
+
+def braking_numbers(m: Manoeuvre, begin: float) -> Numbers:
+    """Of braking from a time on, in a turn or on split grip: way, deceleration, and what yaw and side slip do."""
+    during = (m.time >= begin) & (m.vx > 1.0)
+    before = m.time < begin
+    k, last = int(np.argmax(during)), int(len(m.time) - 1 - np.argmax(during[::-1]))
+    turned = m.yaw[during] - m.yaw[k] - m.yaw_rate[k] * (m.time[during] - m.time[k])
+    mean = (float(m.vx[k]) - float(m.vx[last])) / max(float(m.time[last] - m.time[k]), 1e-9)
+    out = {"speed": (float(m.vx[k]), "m/s"), "mean deceleration": (mean, "m/s²"),
+           "way": (float(np.sum(np.hypot(np.diff(m.x[k:]), np.diff(m.y[k:])))), "m"),
+           "greatest yaw rate": (np.degrees(float(np.max(np.abs(m.yaw_rate[during])))), "°/s"),
+           "greatest side slip": (np.degrees(float(np.max(np.abs(np.arctan2(m.vy, m.vx)[during])))), "°"),
+           "yaw beyond that of the turn before": (np.degrees(float(turned[np.argmax(np.abs(turned))])), "°")}  # fmt: skip
+    return {"lateral acceleration before": (float(m.ay[before][-1]), "m/s²"), **out}
+
+
+def slope_numbers(m: Manoeuvre) -> Numbers:
+    """Of a start on a slope along x: how far it rolls back, and how soon it has gone five metres."""
+    gone = m.x - m.x[0]
+    there = np.argmax(gone > 5.0)
+    out: Numbers = {"rolls back": (max(-float(np.min(gone)), 0.0), "m"), "speed at the end": (float(m.vx[-1]), "m/s")}
+    return out | (
+        {"time to 5 m": (float(m.time[there]), "s")} if gone[-1] > 5.0 else {"gone at the end": (float(gone[-1]), "m")}
+    )
+
+
+def handling_html(machine: str, found: Mapping[str, tuple[Manoeuvre, Numbers, str]]) -> str:
+    """The page as text: numbers of each manoeuvre with the verdict on its run, understeer plot, g-g diagram, histories."""
+    plots, said = [], []
+    for name, (m, numbers, trust) in found.items():
+        said.append(
+            f"{name}: "
+            + "; ".join(f"{what} {value:.4g} {unit}" for what, (value, unit) in numbers.items())
+            + f" (trust: {trust})"
+        )
+        if name == "circle":
+            lateral = m.vx * m.yaw_rate / G
+            lines = [Line("steering", lateral, np.degrees(m.steering)), Line("side slip", lateral, np.degrees(np.arctan2(m.vy, m.vx))),
+                     Line("roll", lateral, np.degrees(m.roll))]  # fmt: skip
+            plots.append(("Understeer", curves(lines, "lateral acceleration [g]", "angle [°]")))
+        else:
+            rate = [
+                Line("yaw rate [°/s]", m.time, np.degrees(m.yaw_rate)),
+                Line("steering [°]", m.time, np.degrees(m.steering)),
+            ]
+            plots.append((f"{name}: yaw rate", curves(rate, "time [s]", "yaw rate [°/s], steering [°]")))
+        plots.append((f"{name}: way", path_drawing(m.x, m.y, "x [m]", "y [m]")))
+    all_of = [Line(name, m.ay / G, m.ax / G) for name, (m, _, _) in found.items()]
+    plots.insert(0, ("g-g diagram", curves(all_of, "lateral acceleration [g]", "longitudinal acceleration [g]")))
+    return page(
+        "plots.html.j2", ("reduction.css", "plots.css"), name=f"{machine}: handling", said=said, plots=plots, note=NOTE
+    )

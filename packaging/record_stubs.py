@@ -13,6 +13,7 @@ from nivel.elements.circuits import COMPONENTS
 from nivel.elements.control import BLOCKS
 from nivel.elements.forces import FORCES
 from nivel.elements.joints import JOINTS
+from nivel.known import HOMES
 
 ROOMS: Final = {"forces": FORCES, "circuits": COMPONENTS, "control": BLOCKS}
 OTHERS: Final = {"circuits": ("Fluid", "Gas")}  # records of rooms that are no kinds of an element
@@ -73,6 +74,12 @@ def stub_of_package() -> str:
     return "\n".join((HEAD, *lines, "", "__version__: str", f"__all__ = {nivel.__all__!r}", ""))
 
 
+def stub_of_known() -> str:
+    """The text of `nivel/elements/known.pyi`."""
+    lines = (f"from {module} import {name} as {name}" for module, names in HOMES.items() for name in names.split())
+    return "\n".join((HEAD, *lines, "", "HOMES: dict[str, str]", ""))
+
+
 def late_modules() -> set[str]:
     """Modules of nivel whose names are written in full in files that take `nivel` from `nivel.lazy`."""
     package = Path(str(nivel.__file__)).parent
@@ -119,6 +126,8 @@ def write_stubs() -> None:
     (Path(str(import_module("nivel.elements.joints").__file__)).with_suffix(".pyi")).write_text(
         stub_of_joints(), encoding="utf-8"
     )
+    known = Path(str(import_module("nivel.known").__file__)).with_suffix(".pyi")
+    known.write_text(stub_of_known(), encoding="utf-8")
     for room in ROOMS:
         module = import_module(f"nivel.elements.{room}")
         Path(str(module.__file__)).with_suffix(".pyi").write_text(stub(room), encoding="utf-8")

@@ -12,27 +12,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
 from nivel.analysis.progress.log import Listener
-from nivel.elements.beams.beam import Beam
-from nivel.elements.circuits import HydraulicComponent
-from nivel.elements.circuits.fluids import AnyFluid
-from nivel.elements.forces import Force
-from nivel.elements.joints.couplings import Coupling
-from nivel.elements.joints.drivers import Driver
-from nivel.elements.joints.joint import Joint
 from nivel.errors import Fault, ModelError, refuse
 from nivel.files.reader import Origin, parse_machine, read_text
 from nivel.files.values import outside_paths
 from nivel.lazy import nivel, numpy, xarray
-from nivel.machine.bodies.body import Body
-from nivel.machine.control.block import Block
-from nivel.machine.core.marker import Marker
-from nivel.machine.laws.time_function import Table
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.run import AssemblySettings, SimulationSettings
-from nivel.machine.signals.event import Event
-from nivel.machine.signals.input import Input
-from nivel.machine.signals.sensor import Sensor
-from nivel.machine.signals.state import State
 from nivel.methods import Analysis
 from nivel.model import Model
 from nivel.settings import (
@@ -95,23 +79,23 @@ class Machine(Model):
         self,
         name: str = "machine",
         *,
-        bodies: Sequence[Body] = (),
-        beams: Sequence[Beam] = (),
-        markers: Sequence[Marker] = (),
-        joints: Sequence[Joint] = (),
-        couplings: Sequence[Coupling] = (),
-        drivers: Sequence[Driver] = (),
-        forces: Sequence[Force] = (),
-        fluids: Sequence[AnyFluid] = (),
-        hydraulics: Sequence[HydraulicComponent] = (),
-        inputs: Sequence[Input] = (),
-        states: Sequence[State] = (),
-        control: Sequence[Block] = (),
-        sensors: Sequence[Sensor] = (),
-        events: Sequence[Event] = (),
+        bodies: Sequence[nivel.Body] = (),
+        beams: Sequence[nivel.Beam] = (),
+        markers: Sequence[nivel.Marker] = (),
+        joints: Sequence[nivel.Joint] = (),
+        couplings: Sequence[nivel.elements.joints.couplings.Coupling] = (),
+        drivers: Sequence[nivel.Driver] = (),
+        forces: Sequence[nivel.elements.forces.Force] = (),
+        fluids: Sequence[nivel.elements.circuits.fluids.AnyFluid] = (),
+        hydraulics: Sequence[nivel.elements.circuits.HydraulicComponent] = (),
+        inputs: Sequence[nivel.Input] = (),
+        states: Sequence[nivel.State] = (),
+        control: Sequence[nivel.Block] = (),
+        sensors: Sequence[nivel.Sensor] = (),
+        events: Sequence[nivel.Event] = (),
         gravity: Sequence[float | str] = (0.0, 0.0, 0.0),
-        assembly: AssemblySettings | Mapping[str, Any] | None = None,
-        simulation: SimulationSettings | Mapping[str, Any] | None = None,
+        assembly: nivel.AssemblySettings | Mapping[str, Any] | None = None,
+        simulation: nivel.SimulationSettings | Mapping[str, Any] | None = None,
         description: str = "",
         surroundings: Sequence[Any] = (),
         left_out: Sequence[str] = (),
@@ -176,7 +160,7 @@ class Machine(Model):
     def simulate(
         self,
         *,
-        inputs: Mapping[str, float | str | PathLike[str] | Table] | None = None,
+        inputs: Mapping[str, float | str | PathLike[str] | nivel.Table] | None = None,
         out: str | PathLike[str] | None = None,
         force: bool = False,
         verify: bool = True,
@@ -572,7 +556,7 @@ class Machine(Model):
         threads: int | None = None,
         listener: Listener | None = None,
         **settings: Unpack[RunSettingsDict],
-    ) -> tuple[dict[str, Table], Optimum]:
+    ) -> tuple[dict[str, nivel.Table], Optimum]:
         """Inputs over time with which a run has the least objective: tables for ``machine.simulate(inputs=tables)``, and the optimum.
 
         inputs : by name, the number of pieces, all of one length, in each of which the input changes along a straight line within its
@@ -1030,7 +1014,7 @@ class Machine(Model):
         return self._compiled(nivel.analysis.plan.compilation.assembly_entries(self.record), listener)
 
     @checked_arguments
-    def with_inputs(self, inputs: Mapping[str, float | str | PathLike[str] | Table]) -> Machine:
+    def with_inputs(self, inputs: Mapping[str, float | str | PathLike[str] | nivel.Table]) -> Machine:
         """The same machine whose inputs follow numbers, tables of time, or files of columns `time`, `value` (CSV).
 
         Raises ModelError where there is no such input, or a value leaves its range or changes faster than its rate.

@@ -1,5 +1,5 @@
 """Late making: modules that are imported when one of their names is first used, the only place of such imports, functions of rooms
-above, and the methods of dataclasses.
+above, and dataclasses without text that is compiled.
 
 A function that needs a heavy or optional module, or one that few runs need, writes its name in full, `scipy.linalg.expm(A)`, with
 `from nivel.lazy import scipy` at the head of its file. `Late` stands for the package; type checkers read `lazy.pyi`, which
@@ -11,10 +11,12 @@ A lower room asks for a function of a room above by its subject; `nivel/__init__
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, field, fields, is_dataclass, replace  # noqa: F401
+from functools import partial, total_ordering
 from importlib import import_module
-from threading import RLock
+from inspect import Parameter, Signature, signature
+from operator import attrgetter
 from types import ModuleType
 from typing import Any, Final
 
@@ -58,64 +60,69 @@ def provided(subject: str) -> Any:
     return getattr(import_module(module), name)
 
 
-class _Unmade:
-    """Stands for a method of a dataclass; where it is asked for, the class gets all of its own.
+class _Signature:
+    """The signature of a dataclass, made when it is asked for."""
 
-    Those of the standard library are text that is compiled, up to a millisecond a class, and a run uses a third of the classes that it
-    imports.
-    """
-
-    __slots__ = ("make", "name")
-
-    def __init__(self, name: str, make: Callable[[], None]) -> None:
-        self.name, self.make = name, make
-
-    def __get__(self, record: Any, owner: type | None = None) -> Any:
-        self.make()
-        return getattr(owner if record is None else record, self.name)
+    def __get__(self, record: Any, owner: type) -> Signature:
+        return Signature(sorted(map(_parameter, fields(owner)), key=lambda each: each.kind))
 
 
-_MAKING = RLock()
-_OF_ALL = ("__init__", "__repr__", "__dataclass_fields__", "__dataclass_params__", "__match_args__")
-_FROZEN = ("__setattr__", "__delattr__")
-_ORDER = ("__lt__", "__le__", "__gt__", "__ge__")
+def _parameter(told: dataclasses.Field[Any]) -> Parameter:
+    kind = Parameter.KEYWORD_ONLY if told.kw_only else Parameter.POSITIONAL_OR_KEYWORD
+    given = (value for value in (told.default, told.default_factory) if value is not dataclasses.MISSING)
+    return Parameter(told.name, kind, default=next(given, Parameter.empty), annotation=told.type)
 
 
-def _complete(kind, own, options):
-    """Give a class what `dataclasses` makes for its double, which has its `own` names: while it is made other threads meet the stubs,
-    which wait, and no class that is half made."""
-    own = {name: value for name, value in own.items() if name not in ("__dict__", "__weakref__")}
-    double = type(kind)(kind.__name__, kind.__bases__, own | {"__qualname__": kind.__qualname__})
-    before = dict(vars(double))
-    dataclasses.dataclass(double, **options)
-    for name, value in vars(double).items():
-        if before.get(name, _MAKING) is not value:
-            for cell in getattr(value, "__closure__", None) or ():
-                if cell.cell_contents is double:  # in `super(double, self)`
-                    cell.cell_contents = kind
-            setattr(kind, name, value)
-    for name in before.keys() - vars(double).keys():
-        delattr(kind, name)
-
-
-def dataclass(kind=None, /, **options):
-    """As `dataclasses.dataclass`, without `slots`: the class is completed when one of its methods is first asked for."""
+def dataclass(kind=None, /, *, frozen=False, eq=True, repr=True, order=False, kw_only=False):
+    """As `dataclasses.dataclass`, with methods that go over the fields: those of the standard library are text that is compiled, about a
+    millisecond a class."""
     if kind is None:
-        return lambda made: dataclass(made, **options)
-    compared, frozen = options.get("eq", True), options.get("frozen", False)
-    if compared and not frozen and "__hash__" not in vars(kind):
-        kind.__hash__ = None
-    names = {*_OF_ALL, *_FROZEN * frozen, *_ORDER * options.get("order", False), *("__eq__",) * compared}
-    stubs = {}
+        return partial(dataclass, frozen=frozen, eq=eq, repr=repr, order=order, kw_only=kw_only)
+    kind.__doc__ = kind.__doc__ or kind.__name__  # or it would be made of a signature
+    its_own = dict(vars(kind))
+    dataclasses.dataclass(kind, init=False, repr=False, eq=False, kw_only=kw_only)
+    every = fields(kind)
+    known = dict.fromkeys(each.name for each in every).keys()
+    unnamed = [each.name for each in every if not each.kw_only]
+    defaults = {each.name: each.default for each in every if each.default is not dataclasses.MISSING}
+    factories = {each.name: each.default_factory for each in every if each.default_factory is not dataclasses.MISSING}
+    compared = attrgetter("__class__", *(each.name for each in every if each.compare))
+    ends = hasattr(kind, "__post_init__")
 
-    def make():
-        with _MAKING:
-            if stubs:
-                own = {name: value for name, value in vars(kind).items() if stubs.get(name, _MAKING) is not value}
-                stubs.clear()
-                _complete(kind, own, options)
+    def made(self, /, *given, **named):
+        values = vars(self)
+        values.update(defaults)
+        values.update(zip(unnamed, given, strict=False))
+        values.update(named)
+        for name, make in factories.items():
+            if name not in values:
+                values[name] = make()
+        twice = given and named and not named.keys().isdisjoint(unnamed[: len(given)])
+        if twice or values.keys() != known or len(given) > len(unnamed):
+            signature(kind).bind(*given, **named)  # tells what is wrong
+        if ends:
+            self.__post_init__()
 
-    for name in names.union(("__hash__",) * (compared and frozen)).difference(vars(kind)):
-        stubs[name] = _Unmade(name, make)
-        setattr(kind, name, stubs[name])
-    return kind
+    def told(self):
+        shown = (f"{each.name}={getattr(self, each.name)!r}" for each in every if each.repr)
+        return f"{type(self).__qualname__}({', '.join(shown)})"
+
+    def equal(self, other):
+        return compared(self) == compared(other) if type(other) is type(self) else NotImplemented
+
+    def less(self, other):
+        return compared(self) < compared(other) if type(other) is type(self) else NotImplemented
+
+    def refuse(self, name, *value):
+        if type(self) is kind or name in known:
+            raise dataclasses.FrozenInstanceError(f"cannot {'assign to' if value else 'delete'} field {name!r}")
+        (super(kind, self).__setattr__ if value else super(kind, self).__delattr__)(name, *value)
+
+    methods = {"__init__": made} | ({"__repr__": told} if repr else {}) | ({"__eq__": equal} if eq else {})
+    methods |= ({"__lt__": less} if order else {}) | ({"__setattr__": refuse, "__delattr__": refuse} if frozen else {})
+    for name in methods.keys() - its_own.keys():
+        setattr(kind, name, methods[name])
+    if eq and its_own.get("__hash__") is None:
+        kind.__hash__ = (lambda record: hash(compared(record))) if frozen else None
+    kind.__signature__ = _Signature()
+    return total_ordering(kind) if order else kind

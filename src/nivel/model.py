@@ -6,15 +6,8 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from html import escape
 from os import PathLike
-from typing import TYPE_CHECKING, Any, Self, TypeVar
+from typing import Any, Self, TypeVar
 
-from nivel.elements.beams.beam import Beam
-from nivel.elements.circuits import HydraulicComponent
-from nivel.elements.circuits.fluids import AnyFluid
-from nivel.elements.control import ControlBlock
-from nivel.elements.forces import Force
-from nivel.elements.joints.couplings import Coupling
-from nivel.elements.joints.drivers import Driver
 from nivel.elements.joints.joint import Joint
 from nivel.errors import Fault, ModelError
 from nivel.files.outline import Known
@@ -25,6 +18,20 @@ from nivel.files.target import write_file
 from nivel.files.values import elements_named, replaced, section_of_element, value_at, whole_path, with_values
 from nivel.files.writer import write_machine
 from nivel.judge.before.unusual import remarks
+from nivel.known import (
+    AnyFluid,
+    Assembly,
+    Beam,
+    ControlBlock,
+    Coupling,
+    Driver,
+    Event,
+    Force,
+    HydraulicComponent,
+    Input,
+    Sensor,
+    State,
+)
 from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.bodies.body import Body
 from nivel.machine.core.marker import Marker
@@ -32,16 +39,9 @@ from nivel.machine.core.named import Named, NamedValues
 from nivel.machine.core.record import Record, entry
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import AssemblySettings, SimulationSettings, changed
-from nivel.machine.signals.event import Event
-from nivel.machine.signals.input import Input
-from nivel.machine.signals.sensor import Sensor
-from nivel.machine.signals.state import State
 from nivel.machine.uses.references import SECTIONS
 from nivel.words.arguments import checked_arguments
 from nivel.words.wording import unknown_word
-
-if TYPE_CHECKING:
-    from nivel.files.assembly import Assembly
 
 Element = TypeVar("Element", bound=Record)
 

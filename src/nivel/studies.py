@@ -7,24 +7,18 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 from nivel.analysis.progress.log import Listener
 from nivel.api import Machine, code_of, load
 from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.files.sources import beside, read_bytes, read_text
 from nivel.files.study_file import StudyFile, study_and_faults
+from nivel.known import Identified, Journal, Optimum, Resolved, Variants
 from nivel.lazy import dataclass, nivel, replace, xarray
 from nivel.machine.study.parameter import Between
 from nivel.results.frames.tabulated import write_netcdf
 from nivel.words.arguments import checked_arguments
-
-if TYPE_CHECKING:
-    from nivel.analysis.optimise.identify import Identified
-    from nivel.analysis.optimise.optimise import Optimum
-    from nivel.analysis.progress.journal import Journal
-    from nivel.analysis.sweep.resolution import Resolved
-    from nivel.analysis.sweep.variants import Variants
 
 Found = TypeVar("Found", "Optimum", "Identified")
 TIMES = ("seconds", "loop_seconds", "processes")  # attributes that are of the computation, and not of the study

@@ -74,6 +74,9 @@ class LazyGroup(click.Group):
         # Matrices here are small: threads of linear algebra wait for each other, on a busy machine for minutes. Read as NumPy is loaded.
         for variable in ONE_THREAD:
             os.environ.setdefault(variable, "1")
+        os.environ.setdefault(
+            "PYDANTIC_DISABLE_PLUGINS", "__all__"
+        )  # it would read of everything installed what plugins it has
         gc.set_threshold(NEW_OBJECTS)
         module, _, name = place.module.partition(":")
         command: click.Command = getattr(import_module(module), name or "command")

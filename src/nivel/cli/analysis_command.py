@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -25,12 +25,8 @@ from nivel.cli.options import (
 )
 from nivel.cli.progress import progress_listener
 from nivel.errors import ModelError, SolveError
+from nivel.known import Listener, Machine, Study
 from nivel.lazy import dataclass, nivel
-
-if TYPE_CHECKING:
-    from nivel.analysis.progress.log import Listener
-    from nivel.api import Machine
-    from nivel.studies import Study
 
 
 @dataclass(frozen=True)

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import isnan
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from nivel.cli import options
 from nivel.errors import Fault, ModelError
+from nivel.known import Cost
 from nivel.lazy import nivel
 from nivel.settings import StepSettingsDict
-
-if TYPE_CHECKING:
-    from nivel.live.budget import Cost
 
 
 @click.command()

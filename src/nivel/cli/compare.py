@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import click
 
@@ -12,11 +12,9 @@ from nivel.cli.failures import COMPUTATION_FAILED, INPUT_AT_FAULT
 from nivel.cli.progress import progress_listener
 from nivel.cli.sweep import is_complete, say_how_to_go_on
 from nivel.errors import Fault, ModelError
+from nivel.known import Comparison
 from nivel.lazy import nivel, rich
 from nivel.settings import CompareSettingsDict
-
-if TYPE_CHECKING:
-    from nivel.results.comparison import Comparison
 
 FORMATS: Final = (".csv", ".json")
 WIDEST: Final = 1000  # a line of the table is a line also in a narrow terminal or a pipe

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import click
 
 from nivel.cli.options import file_argument, json_option
 from nivel.cli.progress import COLOURS
+from nivel.known import Result
 from nivel.lazy import nivel, rich
-
-if TYPE_CHECKING:
-    from nivel.results import Result
 
 SIGNS = {"green": "✓", "amber": "!", "red": "✕"}
 

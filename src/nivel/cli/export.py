@@ -5,15 +5,13 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from nivel.cli.options import file_argument, force_option, override_option, repeated
+from nivel.known import Machine
 from nivel.lazy import nivel
-
-if TYPE_CHECKING:
-    from nivel.api import Machine
 
 BESIDE = "\0"  # stands for `--csv` or `--fmu` without a file
 # ends of the names of files that are not the word of their option

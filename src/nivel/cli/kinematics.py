@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -13,13 +13,9 @@ from nivel.cli.options import repeated
 from nivel.cli.progress import computed_in, console, ended, progress_listener, say_trust_and_files
 from nivel.cli.run import assembly_lines
 from nivel.errors import Fault, ModelError
+from nivel.known import Machine, Result, Studies
 from nivel.lazy import dataclass, nivel
 from nivel.settings import KinematicsSettingsDict
-
-if TYPE_CHECKING:
-    from nivel.api import Machine
-    from nivel.results.analyses.mechanism import Studies
-    from nivel.results.result import Result
 
 
 @analysis_command(KinematicsSettingsDict, "NAME-kinematics.nc")

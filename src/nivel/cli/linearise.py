@@ -3,21 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from nivel.cli.analysis_command import Order, analysis_command
 from nivel.cli.options import listed
 from nivel.errors import Fault, ModelError
+from nivel.known import LinearModel, LinearSweep, Listener, MachineRecord
 from nivel.lazy import nivel, replace
 from nivel.settings import LineariseSettingsDict
-
-if TYPE_CHECKING:
-    from nivel.analysis.progress.log import Listener
-    from nivel.machine.machine_record import MachineRecord
-    from nivel.results.analyses.linear_model import LinearModel
-    from nivel.results.analyses.linear_sweep import LinearSweep
 
 SHOWN = 20  # modes in the terminal
 MOST = 1000  # values of a parameter

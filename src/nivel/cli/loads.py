@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from nivel.cli.options import file_argument, json_option, listed
 from nivel.errors import Fault, ModelError
+from nivel.known import Result
 from nivel.lazy import nivel, rich, xarray
-
-if TYPE_CHECKING:
-    from nivel.results import Result
 
 
 @click.command()

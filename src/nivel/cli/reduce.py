@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from nivel.cli import options
 from nivel.cli.progress import progress_stage
 from nivel.errors import ModelError
+from nivel.known import Findings, Reduction
 from nivel.lazy import nivel, rich
-
-if TYPE_CHECKING:
-    from nivel.flexible.checks.findings import Findings
-    from nivel.flexible.reduce import Reduction
 
 SHOWN = 15  # modes in the table of the terminal
 

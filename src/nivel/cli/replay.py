@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -11,12 +11,9 @@ from nivel.cli.failures import COMPUTATION_FAILED
 from nivel.cli.options import allow_code_option, file_argument, force_option, out_option, quiet_option, setting_options
 from nivel.cli.progress import progress_listener
 from nivel.errors import ModelError
+from nivel.known import Replay, Result
 from nivel.lazy import nivel
 from nivel.settings import RunSettingsDict
-
-if TYPE_CHECKING:
-    from nivel.live.replay import Replay
-    from nivel.results.result import Result
 
 
 @click.command()

@@ -7,22 +7,20 @@ import math
 from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from nivel.cli.analysis_command import Order, analysis_command
 from nivel.cli.options import input_option
 from nivel.cli.progress import computed_in, console, ended, say_trust_and_files
+from nivel.known import Result
 from nivel.lazy import nivel
 from nivel.settings import RunSettingsDict
 from nivel.words.wording import set_in_motion
 
 MOST_CHANGES = 3  # moved bodies, and changed velocities, that are listed one by one
 ROUND_OFF = 1e-14  # m, rad or per second: smaller changes of the start are not reported
-
-if TYPE_CHECKING:
-    from nivel.results import Result
 
 
 @analysis_command(RunSettingsDict, "NAME.nc")

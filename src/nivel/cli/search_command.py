@@ -7,7 +7,7 @@ import json
 from collections.abc import Callable, Sequence
 from math import isnan
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -15,11 +15,8 @@ from nivel.cli.analysis_command import StudyOrder, study_command
 from nivel.cli.failures import COMPUTATION_FAILED
 from nivel.cli.sweep import is_complete, say_how_to_go_on
 from nivel.errors import SolveError
+from nivel.known import Identified, Optimum
 from nivel.lazy import nivel, rich
-
-if TYPE_CHECKING:
-    from nivel.analysis.optimise.identify import Identified
-    from nivel.analysis.optimise.optimise import Optimum
 
 Facts = Callable[[Any], dict[str, Any]]
 SEARCH = ("--threads", "Runs beside each other; default: one for each processor.")

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from nivel.cli.analysis_command import Order, analysis_command
 from nivel.cli.progress import computed_in, console, ended, say_trust_and_files
 from nivel.cli.run import assembly_lines
+from nivel.known import Result
 from nivel.settings import StaticsSettingsDict
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
 
 SHOWN: Final = 12  # vibrations, and joint coordinates, in the terminal
 

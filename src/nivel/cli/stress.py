@@ -5,17 +5,15 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from nivel.cli.options import FILE, file_argument, force_option, json_option, listed, quiet_option
 from nivel.cli.progress import console, progress_stage
 from nivel.errors import Fault, ModelError, refuse
+from nivel.known import RecoveredBody
 from nivel.lazy import nivel
-
-if TYPE_CHECKING:
-    from nivel.results.stress import RecoveredBody
 
 
 @click.command()

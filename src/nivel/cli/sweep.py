@@ -9,17 +9,15 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import click
 
 from nivel.cli.analysis_command import StudyOrder, study_command
 from nivel.cli.failures import COMPUTATION_FAILED
+from nivel.known import Study
 from nivel.lazy import nivel, numpy, rich, xarray
 from nivel.words.wording import seconds
-
-if TYPE_CHECKING:
-    from nivel.studies import Study
 
 SHOWN: Final = 8  # variants in the live table, and reasons in the summary
 COLUMNS: Final = 8  # numbers in a row of the live table

@@ -8,17 +8,13 @@ from functools import cached_property, reduce
 from importlib import import_module
 from operator import or_
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Generic, Protocol, TypeVar
+from typing import Annotated, Any, Generic, Protocol, TypeVar
 
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter, ValidationInfo
 from pydantic_core import CoreSchema, PydanticKnownError, core_schema
 
+from nivel.known import Family, MachineRecord, SystemBuilder
 from nivel.lazy import dataclass
-
-if TYPE_CHECKING:
-    from nivel.kernels.record.hook import Family
-    from nivel.machine.machine_record import MachineRecord
-    from nivel.system.builder import SystemBuilder
 
 
 def _nothing(builder: SystemBuilder, element: Any) -> None:
@@ -170,6 +166,31 @@ class OneOf:
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         records: Any = Annotated[reduce(or_, self._kinds.records), Field(discriminator="type")]
         return handler(TypeAdapter(records).core_schema)
+
+
+class RecordAt:
+    """Annotation of what is a record, or one of some, of the class at `module:name`, which is imported when the first one is read."""
+
+    def __init__(self, place: str) -> None:
+        self._place = place
+
+    @cached_property
+    def _reader(self) -> TypeAdapter[Any]:
+        module, _, name = self._place.partition(":")
+        return TypeAdapter(getattr(import_module(module), name))
+
+    def read(self, value: Any, info: ValidationInfo) -> Any:
+        """The record. Raises ValidationError."""
+        return self._reader.validator.validate_python(value, context=info.context)
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.with_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        found: Any = {**self._reader.core_schema, "ref": (ref := f"{self._place.replace(':', '.')}:0")}
+        if found["type"].startswith("function"):  # of one class, whose definition is told once
+            return handler(core_schema.definitions_schema(core_schema.definition_reference_schema(ref), [found]))
+        return handler(self._reader.core_schema)
 
 
 class WordOf:

@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from typing import TYPE_CHECKING
 
 from nivel.kernels.bodies.coordinate import LAST_ANGLE
-
-if TYPE_CHECKING:
-    from nivel.machine.core.element import ForceElement
-    from nivel.system.builder import SystemBuilder
+from nivel.known import ForceElement, SystemBuilder
 
 
 class Output(str):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path as FilePath
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
@@ -16,17 +16,15 @@ from pydantic_core import ErrorDetails
 from nivel.errors import Fault, ModelError, refuse
 from nivel.files.body_files import place_body_files, read_mass_properties
 from nivel.files.code import read_python_laws, read_unit_blocks
-from nivel.files.convex_parts import divide_heaps, divide_meshes
 from nivel.files.csv_tables import read_csv_tables
-from nivel.files.height_file import read_heights, spread_sets
 from nivel.files.include import include
 from nivel.files.joint_parts import add_joint_parts
 from nivel.files.mesh_file import read_meshes
-from nivel.files.outline import VALUES, Known, as_part, check_sections, check_start, section_of
+from nivel.files.outline import SETS, VALUES, Known, as_part, check_sections, check_start, section_of
 from nivel.files.overrides import in_order, override, prefix_of, with_units
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
-from nivel.files.tyre_file import read_tyres
+from nivel.known import Assembly
 from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.control.order import can_be_named
 from nivel.machine.core.record import Record
@@ -38,9 +36,6 @@ from nivel.machine.units.quantity import FunctionFault
 from nivel.machine.units.shared_names import name_notes
 from nivel.machine.units.tree import Number, Parameters, Signal
 from nivel.machine.uses.references import SECTIONS
-
-if TYPE_CHECKING:
-    from nivel.files.assembly import Assembly
 
 MOST_ROUNDS: Final = 5  # of functions that call for other units in the expressions that use them
 Elements = dict[str, dict[str, Record]]
@@ -100,6 +95,17 @@ def read_name_notes(text: str, file: str, sources: Sources, *, overrides: Mappin
     return name_notes(resolve(section_of(tree, "parameters"))[0])
 
 
+def _has_contacts(tree: Tree) -> bool:
+    """Whether there are contacts or tyres, sets of their keys, or meshes in parts."""
+    forces, bodies, markers = (section_of(tree, section).values() for section in ("forces", "bodies", "markers"))
+    shapes = [each.get("shape") for each in (*bodies, *markers) if isinstance(each, dict)]
+    return (
+        not tree.data.keys().isdisjoint(SETS)
+        or any(isinstance(each, dict) and each.get("type") in ("contact", "contacts", "tyre") for each in forces)
+        or any(isinstance(each, dict) and "convex_parts" in each for each in shapes)
+    )
+
+
 def _tree_of(
     text: str,
     file: str,
@@ -122,13 +128,16 @@ def _tree_of(
     if user is not None:
         as_part(tree, user[2].only, f"`assemblies.{user[1]}: {{file: {user[2].file}, only: [bodies, joints]}}`")
         nivel.files.assembly.given_parameters(tree, *user)
-    spread_sets(tree)
+    touching = _has_contacts(tree)
+    if touching:
+        nivel.files.height_file.spread_sets(tree)
     add_joint_parts(tree)
     read_meshes(tree, sources)
-    divide_meshes(tree)
-    divide_heaps(tree)
-    read_heights(tree, sources)
-    read_tyres(tree, sources)
+    if touching:
+        nivel.files.convex_parts.divide_meshes(tree)
+        nivel.files.convex_parts.divide_heaps(tree)
+        nivel.files.height_file.read_heights(tree, sources)
+        nivel.files.tyre_file.read_tyres(tree, sources)
     read_python_laws(tree, sources)
     read_unit_blocks(tree, sources)
     read_csv_tables(tree, sources)

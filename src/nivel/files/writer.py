@@ -8,9 +8,9 @@ from typing import Any
 
 import yaml
 
-from nivel.elements.circuits.curves import Curve
 from nivel.files.outline import FORMAT
 from nivel.files.tree import INTEGER, NOT_FINITE, NULL, NUMBER, TRUTH
+from nivel.lazy import nivel
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import Inertia
 from nivel.machine.core.record import Record
@@ -62,7 +62,7 @@ def _plain(value: Any) -> Any:
             return [value.xx, value.yy, value.zz]
         case Record():
             return _fields(value)
-        case Table() | Curve():
+        case Table() | nivel.elements.circuits.curves.Curve():
             return _Line(value.written())
         case dict() if any(isinstance(each, Record) for each in value.values()):
             return {key: _plain(each) for key, each in value.items()}

@@ -6,10 +6,10 @@ Machine code does not depend on this module (`nivel.native.sources`).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from importlib import import_module
 from typing import Literal
 
+from nivel.lazy import dataclass
 from nivel.methods import CHOSEN, EITHER
 from nivel.native.entry import Entry
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+
+from nivel.lazy import dataclass
 
 Coefficients = tuple[float, float, float, float]
 

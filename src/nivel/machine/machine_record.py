@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import Annotated, Any, ClassVar, Final, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,14 +18,11 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails
 
-from nivel.elements.beams.beam import Beam
 from nivel.elements.circuits import HydraulicComponent
-from nivel.elements.circuits.fluids import AnyFluid
 from nivel.elements.control import ControlBlock
 from nivel.elements.forces import Force
-from nivel.elements.joints.couplings import Coupling
-from nivel.elements.joints.drivers import Driver
 from nivel.elements.joints.joint import Joint
+from nivel.elements.kind import RecordAt
 from nivel.lazy import nivel
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.point_masses import problems_of_points
@@ -41,14 +38,29 @@ from nivel.machine.core.record import entry, restated
 from nivel.machine.given import GRAVITY, SIZE, Field, ManyNames, ManyRecords, OneRecord, Usual
 from nivel.machine.laws.functions import MachineFunction, functions_of
 from nivel.machine.settings.run import AssemblySettings, SimulationSettings
-from nivel.machine.signals.event import Event
-from nivel.machine.signals.input import Input
-from nivel.machine.signals.sensor import Sensor
-from nivel.machine.signals.state import State
 from nivel.machine.units.quantity import AccelerationVector, fault, listed, parameters_of, shown
 from nivel.machine.uses.coordinate_uses import with_whole_coordinates
 from nivel.machine.uses.interface_uses import problems_of_interfaces
 from nivel.machine.uses.references import reference_faults
+
+if TYPE_CHECKING:
+    from nivel.elements.beams.beam import Beam
+    from nivel.elements.circuits.fluids import AnyFluid
+    from nivel.elements.joints.couplings import Coupling
+    from nivel.elements.joints.drivers import Driver
+    from nivel.machine.signals.event import Event
+    from nivel.machine.signals.input import Input
+    from nivel.machine.signals.sensor import Sensor
+    from nivel.machine.signals.state import State
+else:  # sections that few machines have
+    Beam = Annotated[Any, RecordAt("nivel.elements.beams.beam:Beam")]
+    AnyFluid = Annotated[Any, RecordAt("nivel.elements.circuits.fluids:AnyFluid")]
+    Coupling = Annotated[Any, RecordAt("nivel.elements.joints.couplings:Coupling")]
+    Driver = Annotated[Any, RecordAt("nivel.elements.joints.drivers:Driver")]
+    Event = Annotated[Any, RecordAt("nivel.machine.signals.event:Event")]
+    Input = Annotated[Any, RecordAt("nivel.machine.signals.input:Input")]
+    Sensor = Annotated[Any, RecordAt("nivel.machine.signals.sensor:Sensor")]
+    State = Annotated[Any, RecordAt("nivel.machine.signals.state:State")]
 
 LONGEST_NAME: Final = 100  # characters: the files of a run are named after the machine
 

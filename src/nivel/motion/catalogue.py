@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from importlib import import_module
 from typing import Any
+
+from nivel.lazy import dataclass, replace
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from nivel.native.entry import Entry
 from nivel.native.processor import target
 from nivel.native.shipped import address_in_library, fits
 from nivel.native.signature import Signature
-from nivel.native.sources import fingerprint
+from nivel.native.sources import fingerprint, keep
 
 
 def address_of(entry: Entry) -> int:
@@ -30,8 +30,10 @@ def address_of(entry: Entry) -> int:
 
 def missing(entries: Iterable[Entry]) -> list[Entry]:
     """Those without machine code."""
-    left = (entry for entry in dict.fromkeys(entries) if entry.name not in _loaded and not fits(entry))
-    return [entry for entry in left if not _path(entry).exists()]
+    asked = dict.fromkeys(entry for entry in entries if entry.name not in _loaded)
+    left = [entry for entry in asked if not fits(entry) and not _path(entry).exists()]
+    keep(entry.name for entry in asked)
+    return left
 
 
 def object_code(entry: Entry) -> bytes:

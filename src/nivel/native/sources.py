@@ -8,12 +8,18 @@ names, directly or not, and of what these import.
 from __future__ import annotations
 
 import hashlib
+import json
+import os
 import re
 import sysconfig
+from collections.abc import Iterable
+from contextlib import suppress
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
+from nivel.native import store
 from nivel.native.outline import Need, either, outline_of
 
 _IMPORT = re.compile(
@@ -35,15 +41,52 @@ TRANSLATION = "nivel.native.with_numba.translate"
 @cache
 def fingerprint(entry: str) -> str:
     """A digest of the `parts` of an entry, or of all of a module."""
+    if entry in (known := _kept()["digests"]):
+        return str(known[entry])
     digest = hashlib.sha256()
     for name, text in sorted(parts(entry).items()):
         digest.update(f"{name}\0".encode() + text)
     return digest.hexdigest()
 
 
+def keep(entries: Iterable[str]) -> None:
+    """Write the digests of these entries, where they are of this package, for later processes, which need not read the sources."""
+    kept = _kept()
+    new = [each for each in entries if each.startswith("nivel.") and each not in kept["digests"]]
+    if not new:
+        return
+    files = {str(file) for each in new for file in modules(each).values()}
+    kept["files"] = sorted({*kept["files"], *files, *(os.path.dirname(file) for file in files), __file__})
+    kept["digests"] |= {each: fingerprint(each) for each in new}
+    kept["stamp"] = _stamp(kept["files"])
+    with suppress(OSError), store.whole(_index()) as draft:
+        draft.write_text(json.dumps(kept), encoding="utf-8")
+
+
+@cache
+def _kept() -> dict[str, Any]:
+    """Digests that were kept, with the files and folders that they were made of, as long as none of these has changed."""
+    with suppress(OSError, ValueError, LookupError, TypeError):
+        found = json.loads(_index().read_text(encoding="utf-8"))
+        if found["stamp"] == _stamp(found["files"]):
+            return dict(found)
+    return {"digests": {}, "files": []}
+
+
+def _index() -> Path:
+    """The file of digests of the package at this place."""
+    return store.folder() / f"digests-{hashlib.sha256(str(PACKAGE).encode()).hexdigest()[:16]}.json"
+
+
+def _stamp(files: Iterable[str]) -> str:
+    """What is another one when one of these files or folders is written. Raises OSError where one is gone."""
+    facts = [(file, (its := os.stat(file)).st_mtime_ns, its.st_size) for file in files]
+    return hashlib.sha256(repr(facts).encode()).hexdigest()
+
+
 def look_again() -> None:
     """Forget what was read: files may have changed."""
-    for function in (fingerprint, _imported, _content, _own_file, outline_of, file_of):
+    for function in (fingerprint, _kept, _imported, _content, _own_file, outline_of, file_of):
         function.cache_clear()
 
 

@@ -6,20 +6,17 @@ import json
 from collections.abc import Iterable
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.known import Result
 from nivel.looks.poses import Array, body_poses, sliding_axes, turning_axes, upwards
 from nivel.looks.solids import colour_of
 from nivel.looks.viewpoint import choose_view
 from nivel.report.drawing import WIDTH, Frame, Label, aid_places, bar_strip, fit, place, scale_bar, triad_sign
 from nivel.results.scales import Readable
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
-
 
 Numbers = NDArray[np.intp]
 SHAPES = 11  # of each beam

@@ -5,14 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
+from nivel.known import Result
 from nivel.lazy import dataclass, field
 from nivel.report.panel import GROUPS, MOST, Curve, Group, Panel, left_out
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
-
 
 WIDE, HIGH, ACROSS, DOWN = 168.0, 40.0, 64.0, 14.0  # [px] of boxes, and between them
 MARGIN = 8.0

@@ -4,18 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from nivel.known import ComponentBalance, PowerFlow
 from nivel.lazy import nivel
 from nivel.report.panel import GROUPS, MOST, Curve, Group, Panel, left_out
 from nivel.results.result import Result
-
-if TYPE_CHECKING:
-    from nivel.looks.circuit.power_flow import PowerFlow
-    from nivel.results.frames.circuit_balance import ComponentBalance
-
 
 # output of forces → what it is called; in the order in which they are offered
 FORCE_WORDS = {

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from html import escape
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.known import Result
 from nivel.report.panel import Array
 from nivel.report.plots import Axis
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
 
 WIDTH, HEIGHT = 420.0, 300.0
 LEFT, RIGHT, TOP, BOTTOM = 64.0, 16.0, 28.0, 44.0

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from nivel.judge.after.checks import joints
+from nivel.known import Result
 from nivel.lazy import dataclass
 from nivel.report.beam_shapes import beam_nodes, stations
 from nivel.report.control_diagram import control
 from nivel.report.element_panels import couplings, drivers, forces, sensors
 from nivel.report.panel import GROUPS, MOST, TOGETHER, Array, Curve, Group, Panel, components, left_out
 from nivel.results.scales import blocks, bodies, rotated
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
-
 
 NEGLIGIBLE = 1e-9  # of the largest reaction in the machine, a torque counted as a force at its size: round-off
 

@@ -5,17 +5,15 @@ from __future__ import annotations
 import json
 import math
 import re
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from nivel.judge.after.report import titles
+from nivel.known import Result
 from nivel.lazy import dataclass
 from nivel.report.beam_shapes import beam_nodes
 from nivel.results.frames.summary import in_words
 from nivel.results.trust import NOT_VERIFIED, Trust, Verdict
 from nivel.words.wording import set_in_motion
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
 
 SHOWN_CHANGES = 6  # bodies that the assembly changed; more are counted
 SHOWN_EVENTS = 20  # likewise

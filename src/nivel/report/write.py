@@ -6,7 +6,7 @@ import base64
 import json
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.files.target import keep_sources, write_file
 from nivel.judge.after.report import thresholds_of
+from nivel.known import Result
 from nivel.lazy import dataclass, nivel
 from nivel.looks.poses import upwards
 from nivel.machine.machine_record import MachineRecord
@@ -31,10 +32,6 @@ from nivel.results.frames.stored import understood
 from nivel.results.scales import RULES
 from nivel.view.page import scene_html
 from nivel.view.playback import SMALL
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
-
 
 OUTPUTS, PARAMETERS = 6, 12  # that are drawn; others stand in the result
 CHANGE = 0.01  # of the parameter, for which the change of the curve is told

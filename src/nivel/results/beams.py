@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 
@@ -12,16 +12,13 @@ from nivel.elements.beams.beam import Beam
 from nivel.elements.beams.exact import gauss
 from nivel.elements.beams.gradients import gradients, lengths_of, line_at, unstressed_vectors
 from nivel.errors import ModelError
+from nivel.known import Result
 from nivel.lazy import dataclass, nivel, replace, scipy, xarray
 from nivel.machine.core.record import unknown_word
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.stored import understood
 from nivel.system.beam_nodes import gradient_nodes, modes_in_gradients
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
-
 
 COMPONENTS = ("x", "y", "z")
 AT_ONCE: Final = 20_000  # elements, counted anew at every time

@@ -11,17 +11,15 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.known import Result
 from nivel.lazy import dataclass, replace
 from nivel.machine.core.vectors import Array
 from nivel.results.frames.contents import derivative, shape_of
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
 
 STENCIL: Final = 5  # frames through which a polynomial is laid where rates are not known
 DOUBT: Final = 0.5  # of what a cubic over two intervals misses at a corner, that over one does

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,15 +18,12 @@ from nivel.flexible.body import recovery
 from nivel.flexible.body.body import ReducedBody
 from nivel.flexible.body.body_file import fingerprint, read_body
 from nivel.flexible.body.recovery import Cycle, Envelope, HotSpot, stations_at, stress_modes
+from nivel.known import Result
 from nivel.lazy import asdict, dataclass, nivel
 from nivel.machine.core.vectors import Array
 from nivel.results.motion import rotation_matrices
 from nivel.results.trust import Trust
 from nivel.words.arguments import checked_arguments
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
-
 
 Whole = NDArray[np.int64]
 Told = Callable[[str, float], None]  # what is done, and which share of all is, 0 to 1

@@ -15,13 +15,9 @@ from typing import Any
 import numpy as np
 from pydantic import InstanceOf
 
-from nivel.elements.beams import gradients
-from nivel.elements.beams.beam import Beam
-from nivel.elements.beams.exact import masses_of
-from nivel.elements.beams.segments import Segments, segments_of
-from nivel.elements.joints.on_beams import on_beams
-from nivel.flexible.body.body import Interface, ReducedBody
 from nivel.flexible.body.invariants import of_points
+from nivel.known import Beam, ReducedBody, Segments
+from nivel.lazy import nivel
 from nivel.machine.bodies.body import Body, Flexibility
 from nivel.machine.bodies.inertia import Inertia
 from nivel.machine.core.orientation import Orientation, euler_parameters_from_matrix
@@ -44,16 +40,18 @@ def with_nodes(machine: MachineRecord) -> MachineRecord:
         return machine
     given: dict[str, Any] = {name: getattr(machine, name) for name in type(machine).model_fields}
     given["bodies"] = (*machine.bodies, *(node for beam in missing for node in _nodes(beam)))
-    given["joints"] = on_beams(machine.joints, missing)
+    given["joints"] = nivel.elements.joints.on_beams.on_beams(machine.joints, missing)
     return type(machine).model_construct(machine.model_fields_set | {"bodies"}, **given)
 
 
 def lumps_of(beam: Beam) -> Segments:
     """What its nodes weigh by themselves: rigid segments, or the shares of the elements."""
     if beam.model == "segments":
-        return segments_of(beam)
-    masses = masses_of(beam, shared=beam.shares_mass)
-    return Segments(masses.mass, np.tile(beam.properties.mass_centre, (len(masses.mass), 1)), masses.inertia)
+        return nivel.elements.beams.segments.segments_of(beam)
+    masses = nivel.elements.beams.exact.masses_of(beam, shared=beam.shares_mass)
+    return nivel.elements.beams.segments.Segments(
+        masses.mass, np.tile(beam.properties.mass_centre, (len(masses.mass), 1)), masses.inertia
+    )
 
 
 def _nodes(beam: Beam) -> list[Body]:
@@ -107,6 +105,7 @@ class GradientNode(Flexibility):
 
 def gradient_nodes(beam: Beam) -> list[GradientNode]:
     """What makes the nodes of a beam deform."""
+    gradients = nivel.elements.beams.gradients
     width, lengths, reach = gradients.vectors_of_node(beam), gradients.lengths_of(beam), gradients.reach_of(beam)
     W = np.zeros((len(lengths) + 1, width, width))
     roll = np.zeros(len(lengths) + 1)
@@ -124,7 +123,7 @@ def gradient_nodes(beam: Beam) -> list[GradientNode]:
 def modes_in_gradients(beam: Beam, node: ReducedBody) -> Array:
     """(k, 3, m) what the modal coordinates of a node change its gradients by, in its axes."""
     tips = node.interfaces
-    return np.stack([tip.phi / gradients.reach_of(beam) for tip in tips])
+    return np.stack([tip.phi / nivel.elements.beams.gradients.reach_of(beam) for tip in tips])
 
 
 def _node(name: str, W: Array, roll: float, reach: float) -> ReducedBody:
@@ -137,19 +136,21 @@ def _node(name: str, W: Array, roll: float, reach: float) -> ReducedBody:
     for j, moves in enumerate(shapes):
         for tip, axis in moves:
             displacement[1 + tip, axis, j] = reach
-    T = gradients.as_points(width, reach)
+    T = nivel.elements.beams.gradients.as_points(width, reach)
     raw = of_points(position, displacement, T.T @ W @ T)
     change = np.asarray(np.linalg.inv(np.linalg.cholesky(raw.I6)).T, dtype=float)
     its = raw.of_modes(change)
     phi = displacement @ change
     modes = np.zeros((width, 6, len(shapes)))
     modes[:, :3] = phi
-    return ReducedBody(
+    return nivel.flexible.body.body.ReducedBody(
         name=name,
         eigenvalues=np.zeros(len(shapes)),
         invariants=replace(its, I7=its.I7 + np.diag([roll, 0.0, 0.0])),
         interfaces=tuple(
-            Interface(TIPS[k], k + 1, position[k + 1], phi[k + 1], np.zeros((3, len(shapes))), False)
+            nivel.flexible.body.body.Interface(
+                TIPS[k], k + 1, position[k + 1], phi[k + 1], np.zeros((3, len(shapes))), False
+            )
             for k in range(width - 1)
         ),
         node_ids=np.arange(width),

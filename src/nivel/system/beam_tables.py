@@ -9,27 +9,26 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.beams import gradients
-from nivel.elements.beams.beam import Beam
-from nivel.elements.beams.exact import MOST, ElementRow, masses_of
-from nivel.elements.beams.exact import apply_elastic as elastic_beam
 from nivel.kernels.record.beam_record import BeamTangent, PointInertia, SharedMass
 from nivel.kernels.record.hook import FAMILIES
 from nivel.kernels.record.record import FREE, NONE, Record
 from nivel.kernels.tree.joints import BY_ADDRESS
+from nivel.known import Beam
+from nivel.lazy import nivel
 from nivel.system.builder import SystemBuilder
 from nivel.system.elimination.tangent_plan import TangentPlan
 from nivel.system.system import System
-from nivel.system.tables import index_array
+from nivel.system.tables import empty, index_array
 
+ELASTIC = "nivel.elements.beams.exact:apply_elastic.code"
 MOST_VECTORS = 8  # of an element with gradients
 Index = NDArray[np.integer]
 
 
 def elastic_family(record: Record) -> int:
     """Number of the family of elements without damping among the families of forces; -1: there are none."""
-    families = [FAMILIES[int(address)] for address in record.elements.address]
-    return families.index(elastic_beam) if elastic_beam in families else -1
+    families = [FAMILIES[int(address)].code.name for address in record.elements.address]
+    return families.index(ELASTIC) if ELASTIC in families else -1
 
 
 def has_elastic_beams(record: Record) -> bool:
@@ -78,7 +77,8 @@ def plain_nodes(system: System, part: Index) -> dict[int, int]:
 def _nodes(record: Record) -> list[list[int]]:
     """Markers of the nodes of each element without damping."""
     first, last = record.elements.span[elastic_family(record)]
-    return [row[: row[ElementRow.COUNT]] for row in record.elements.columns[first:last].tolist()]
+    count = nivel.elements.beams.exact.ElementRow.COUNT
+    return [row[: row[count]] for row in record.elements.columns[first:last].tolist()]
 
 
 def tangent_tables(record: Record, plan: TangentPlan, plain: Mapping[int, int]) -> BeamTangent:
@@ -142,29 +142,29 @@ def _plain_table(branch: Mapping[int, tuple[int, int, int]], plan: TangentPlan, 
 
 def no_tangent() -> BeamTangent:
     """For machines whose derivatives are found otherwise: all arrays empty."""
-    return empty_tangent(0, 0)
+    return empty(BeamTangent)
 
 
 def empty_tangent(elements: int, unknowns: int) -> BeamTangent:
     """Room for so many elements, and unknowns of one at most; tables are empty."""
-    empty = index_array([], 1)
+    none, most = index_array([], 1), nivel.elements.beams.exact.MOST
     return BeamTangent(
-        wrench=np.zeros((elements, 6 * MOST)),
+        wrench=np.zeros((elements, 6 * most)),
         first=np.zeros(1, dtype=np.uint32),
         start=np.zeros(1, dtype=np.uint32),
         unknown=index_array([], 4),
-        place_start=empty,
-        place=empty,
+        place_start=none,
+        place=none,
         pair=index_array([], 2),
         plain=index_array([], 8),
         S=np.zeros((9, 9)),
         B=np.zeros((6, 9)),
         k=np.zeros((18, 18)),
         P=np.zeros(18),
-        twist=np.zeros((unknowns, 6 * MOST)),
-        change=np.zeros((MOST, 6)),
+        twist=np.zeros((unknowns, 6 * most)),
+        change=np.zeros((most, 6)),
         local=np.zeros(36),
-        psi=np.zeros((MOST, 3)),
+        psi=np.zeros((most, 3)),
     )
 
 
@@ -173,7 +173,7 @@ def shared_mass(builder: SystemBuilder, beams: Sequence[Beam]) -> SharedMass:
     pairs, mass, moment, turn = [], [np.zeros(0)], [np.zeros((0, 3, 3))], [np.zeros((0, 3, 3))]
     for beam in beams:
         if beam.model == "geometrically-exact" and beam.shares_mass:
-            own = masses_of(beam)
+            own = nivel.elements.beams.exact.masses_of(beam)
             ends = np.array([(builder.body(name), builder.frame(name)) for name in beam.node_names])
             pairs += ends[own.pairs].transpose(0, 2, 1).reshape(-1, 4).tolist()
             mass.append(own.shared)
@@ -188,6 +188,7 @@ def point_inertia(builder: SystemBuilder, beams: Sequence[Beam]) -> PointInertia
     for beam in beams:
         if not beam.has_gradients:
             continue
+        gradients = nivel.elements.beams.gradients
         width = gradients.vectors_of_node(beam)
         T = np.kron(np.eye(2), gradients.as_points(width, gradients.reach_of(beam)))
         points = gradients.points_of(builder, beam)

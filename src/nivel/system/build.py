@@ -8,11 +8,7 @@ from itertools import islice
 
 import numpy as np
 
-from nivel.elements.beams.models import add_beam
 from nivel.elements.forces import FORCES
-from nivel.elements.forces.friction import rub_off
-from nivel.elements.joints.couplings import add_couplings
-from nivel.elements.joints.drivers import add_drivers
 from nivel.errors import located
 from nivel.kernels.bodies import rail
 from nivel.kernels.bodies.measure import measure
@@ -29,7 +25,6 @@ from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.expression import Expression, expression_of
 from nivel.machine.units.sides import marks
-from nivel.system.beam_tables import no_tangent, point_inertia, shared_mass
 from nivel.system.bodies import body_tables, given_poses, given_velocities, machine_size
 from nivel.system.builder import SystemBuilder
 from nivel.system.elimination.partition import no_partition
@@ -59,6 +54,7 @@ def add_inputs(builder: SystemBuilder) -> None:
             builder.input_functions.append(function)
 
 
+RUBBING = "nivel.elements.forces.friction:rub_off"
 DIRECTIONS = {"both": record.BOTH, "rising": record.RISING, "falling": record.FALLING}
 # [s] time within which stiction stops a joint, until a run says better
 STICK = 1e-3
@@ -120,8 +116,10 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
     for joint in machine.joints:
         with builder.within(f"joints.{joint.name}"), located(f"joints.{joint.name}"):
             add_joint(builder, rows, joint)
-    add_couplings(builder, rows)
-    add_drivers(builder, rows)
+    if machine.couplings:
+        nivel.elements.joints.couplings.add_couplings(builder, rows)
+    if machine.drivers:
+        nivel.elements.joints.drivers.add_drivers(builder, rows)
     add_inputs(builder)
     if machine.hydraulics:
         nivel.system.circuit_elements.add_circuits(builder)
@@ -134,7 +132,7 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
         with located(owner), builder.noting(), builder.within(owner):
             FORCES[force.type].add(builder, force)
     for beam in machine.beams:
-        add_beam(builder, beam)
+        nivel.elements.beams.models.add_beam(builder, beam)
     if machine.hydraulics:
         nivel.system.circuit_elements.add_ledger(builder)
     for joint in machine.joints:
@@ -143,7 +141,7 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
                 builder.coordinate(f"{joint.name}.{name}")
     sensed, acting = nivel.system.circuit_elements.sensed_and_acting(machine) if machine.hydraulics else ([], [])
     # what reads or computes signals, each after what it reads; all other elements follow, last what reads their outputs
-    builder.elements.order((read_inputs, *sensed, compute, *acting), (rub_off,))
+    builder.elements.order((read_inputs, *sensed, compute, *acting), RUBBING)
     return builder, rows
 
 
@@ -181,9 +179,9 @@ def _record(
         frames=record.Frames(bodies.R, bodies.theta, bodies.Rdot, bodies.Rddot),
         flexible=no_flexible(),
         modal=no_modal_tree(),
-        shared=shared_mass(builder, machine.beams),
-        points=point_inertia(builder, machine.beams),
-        beams=no_tangent(),
+        shared=nivel.system.beam_tables.shared_mass(builder, machine.beams),
+        points=nivel.system.beam_tables.point_inertia(builder, machine.beams),
+        beams=nivel.system.beam_tables.no_tangent(),
         partition=no_partition(),
         residual=no_residual(),
         newton=no_newton(),

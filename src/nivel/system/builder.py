@@ -12,8 +12,8 @@ from nivel.elements.states import Coupled, StateFact
 from nivel.kernels.bodies.coordinate import DISTANCE, ROTATION
 from nivel.kernels.record.function import ANGULAR_VELOCITY, COORDINATE, OUTPUT, POSITION, RATE, STATE, VELOCITY
 from nivel.kernels.record.hook import Family
+from nivel.known import PartFunction
 from nivel.lazy import dataclass, field
-from nivel.machine.control.part import PartFunction
 from nivel.machine.core.between import End, GlobalPoint
 from nivel.machine.core.marker import Marker
 from nivel.machine.laws.symbols import find_symbol, is_output

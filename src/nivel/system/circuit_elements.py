@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 
@@ -22,15 +22,10 @@ from nivel.elements.states import Coupled, StateFact
 from nivel.errors import located
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.record import NONE, Circuit
+from nivel.known import Component, Family, MachineRecord, SystemBuilder
 from nivel.lazy import dataclass, field
 from nivel.machine.uses.hydraulic_uses import makers
 from nivel.system.tables import Array, empty, index_array
-
-if TYPE_CHECKING:
-    from nivel.elements.circuits.component import Component
-    from nivel.kernels.record.hook import Family
-    from nivel.machine.machine_record import MachineRecord
-    from nivel.system.builder import SystemBuilder
 
 
 @dataclass

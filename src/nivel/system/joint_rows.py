@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from nivel.elements.joints import JOINTS
-from nivel.elements.joints.couplings import Curve
 from nivel.elements.joints.joint import Joint
 from nivel.elements.joints.kind import (
     AXES,
@@ -25,6 +26,9 @@ from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
 from nivel.system.builder import SystemBuilder
 from nivel.system.joint_frames import cosine_as_placed, joint_frames, slot_frame
 from nivel.system.tables import Rail, Wheel, index_array
+
+if TYPE_CHECKING:
+    from nivel.elements.joints.couplings import Curve
 
 # cosines of axes that count as parallel differ from ±1 by less than this: 0.001 rad
 PARALLEL = 5e-7

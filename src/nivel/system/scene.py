@@ -39,21 +39,24 @@ from __future__ import annotations
 import base64
 import zlib
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 
-from nivel.elements.beams.beam import Beam
-from nivel.elements.contacts.contact import Contact
-from nivel.elements.contacts.height_field import ground_surface
-from nivel.elements.forces import Force
-from nivel.elements.forces.ropes import Rope, first_wheel, way_around
-from nivel.elements.forces.shafts import BeltDrive
-from nivel.elements.forces.springs import TorsionalSpringDamper
-from nivel.elements.joints.couplings import Belt
 from nivel.elements.joints.joint import Joint
 from nivel.files.joint_parts import rotors_of
 from nivel.flexible.body.body import moving_surface
+from nivel.known import (
+    Beam,
+    Belt,
+    BeltDrive,
+    Contact,
+    Force,
+    HydraulicCylinder,
+    Rope,
+    TelescopicCylinder,
+    TorsionalSpringDamper,
+)
 from nivel.lazy import nivel
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Box, Ellipsoid, Extrusion, Mesh, Shape, Sphere, Tube, digits_of
@@ -65,11 +68,7 @@ from nivel.machine.uses.coordinate_reference import find
 from nivel.system.builder import SystemBuilder
 from nivel.system.flexible import bending_bodies
 from nivel.system.joint_frames import as_placed, axes_as_placed, marker_place, slot_frame
-from nivel.system.section_outline import outline
 from nivel.system.system import System
-
-if TYPE_CHECKING:
-    from nivel.elements.circuits.actuators import HydraulicCylinder, TelescopicCylinder
 
 WALL: Final = 0.2  # of a cylinder, of its inner radius
 BARREL: Final = 0.92  # length of a barrel, of that of the retracted cylinder
@@ -160,7 +159,7 @@ def _grounds(machine: MachineRecord) -> Iterator[tuple[str, dict[str, Any]]]:
         plane, heights = getattr(force, "plane", None), getattr(force, "heights", None)
         if heights is not None and plane is not None:
             m, markers = builder.end(plane), builder.markers
-            vertices, triangles = ground_surface(heights)
+            vertices, triangles = nivel.elements.contacts.height_field.ground_surface(heights)
             surface = surface_text(vertices @ markers.frame[m].T + markers.position[m], triangles)
             name = names[markers.body[m]]
             if (name, surface) not in drawn:
@@ -178,7 +177,7 @@ def _gyration(body: Body, system: System, k: int) -> float:
 
 def _sweep(beam: Beam) -> dict[str, Any]:
     """A beam, whose nodes are bodies with the axes of its sections."""
-    outside, hole = outline(beam)
+    outside, hole = nivel.system.section_outline.outline(beam)
     return {"name": beam.name, "bodies": list(beam.node_names), "section": outside, "hollow": hole}
 
 
@@ -263,9 +262,9 @@ def _sizes(cylinder: HydraulicCylinder | TelescopicCylinder) -> list[float]:
 
 def _wheels(machine: MachineRecord, rope: Rope, radii: tuple[float, ...]) -> dict[str, Any]:
     """How a rope runs around wheels."""
-    way = way_around(rope, radii, [as_placed(machine, end) for end in rope.ends])
+    way = nivel.elements.forces.ropes.way_around(rope, radii, [as_placed(machine, end) for end in rope.ends])
     turns = [axes_as_placed(machine, body) for body, _ in way.places]
-    carrier = first_wheel(radii)
+    carrier = nivel.elements.forces.ropes.first_wheel(radii)
     fixed = [turns[k].T @ way.axes @ [np.cos(way.fixed[k]), np.sin(way.fixed[k]), 0.0] for k in (0, -1)]
     return {
         "axis": (turns[carrier].T @ way.axes[:, 2]).tolist(),

@@ -8,16 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.circuits.nodes import Node
-from nivel.elements.joints.on_beams import element_of
 from nivel.elements.states import Coupled, StateFact
 from nivel.kernels.record.record import Control, Record
-from nivel.lazy import dataclass, field, replace
+from nivel.lazy import dataclass, field, nivel, replace
 from nivel.machine.units.tree import Node as Tree
 from nivel.system.layout import FrameLayout
 from nivel.system.tables import Array, index_array
 
 if TYPE_CHECKING:
+    from nivel.elements.circuits.nodes import Node
     from nivel.system.signals.unit import Unit
 
 
@@ -158,7 +157,9 @@ class System:
         for k, (n, along) in enumerate(tree.slider.astype(int).tolist()):
             first, last = coordinates.start[along : along + 2].astype(int)
             stations = coordinates.station[first + 1 : last]
-            tree.element[k, 0] = first + 1 + element_of(stations, float(y[int(tree.place[n, 0])]))
+            tree.element[k, 0] = (
+                first + 1 + nivel.elements.joints.on_beams.element_of(stations, float(y[int(tree.place[n, 0])]))
+            )
 
     def known_rank(self, rank: int) -> System:
         """The same system prepared for `rank` independent rows: with redundant ones, for the rank-revealing path.

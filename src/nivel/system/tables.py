@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import reduce
 from itertools import pairwise
-from typing import Any, TypeVar, get_args, get_type_hints
+from typing import Any, Final, TypeVar, get_args, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ from nivel.elements.states import StateFact
 from nivel.kernels.bodies.coordinate import ALONG, LAST_ANGLE
 from nivel.kernels.bodies.driven_turn import BASE
 from nivel.kernels.bodies.measure import COMBINED
-from nivel.kernels.record.hook import Family
+from nivel.kernels.record.hook import FAMILIES, Family
 from nivel.kernels.record.record import NONE, Bodies, Coordinates, Elements, Markers
 from nivel.lazy import dataclass, field
 
@@ -34,6 +34,17 @@ def empty(record_class: type[AnyRecord]) -> AnyRecord:
     return record_class(
         *(np.zeros((0,) * dimensions, get_args(get_args(array)[1])[0]) for array, dimensions, _ in kinds)
     )
+
+
+OVER_HEIGHTS: Final = "nivel.elements.contacts.heights:apply_over_heights"
+
+
+def rows_of(elements: Elements, family: str) -> tuple[int, int]:
+    """First element of a family, `module:function`, and one past the last; twice zero where there is none."""
+    for address, (first, last) in zip(elements.address, elements.span, strict=True):
+        if (found := FAMILIES.get(int(address))) is not None and found.code.name == f"{family}.code":
+            return int(first), int(last)
+    return 0, 0
 
 
 def longer(array: Array, count: int) -> Array:
@@ -234,13 +245,11 @@ class ElementTable:
         self._states[fact.name] = fact
         return self.state(fact.name)
 
-    def order(self, families: Sequence[Family], last: Sequence[Family] = ()) -> None:
-        """Call these families before all others, in this order, and the `last` behind all others."""
-        first, behind = (
-            {family: self.families[family] for family in each if family in self.families} for each in (families, last)
-        )
-        others = {family: rows for family, rows in self.families.items() if family not in behind}
-        self.families = {**first, **others, **behind}
+    def order(self, families: Sequence[Family], last: str) -> None:
+        """Call these families before all others, in this order, and that of the name `last` behind all others."""
+        first = {family: self.families[family] for family in families if family in self.families}
+        others = sorted(self.families, key=lambda family: family.code.name == f"{last}.code")
+        self.families = first | {family: self.families[family] for family in others}
 
     @property
     def states(self) -> tuple[StateFact, ...]:

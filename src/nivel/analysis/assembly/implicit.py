@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.unknown_groups import frictions_with_stiction, integrals, unknown_groups
-from nivel.elements.beams.exact import hold, nodes_of_elements
-from nivel.elements.beams.exact_slopes import tangent
 from nivel.kernels.core.arrays import dual_twin
 from nivel.kernels.core.block import Handle
 from nivel.kernels.record import record as kernels
@@ -23,9 +21,8 @@ from nivel.kernels.residual import tangent_entries as entries
 from nivel.kernels.residual.element_crossing import pass_nodes
 from nivel.kernels.tree.modal_nodes import pass_modes
 from nivel.kernels.tree.tree_nodes import pass_sliders
-from nivel.lazy import dataclass, replace, scipy
+from nivel.lazy import dataclass, nivel, replace, scipy
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
-from nivel.system import beam_tables
 from nivel.system.elimination.tangent_plan import TangentPlan, plan_tangent
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
 from nivel.system.laws.laws import dual_address
@@ -127,9 +124,9 @@ def _with_rows(
     # residuals over a whole step have elements of beams act at the mean place too
     # and by hand nothing is known of rotation coordinates, of modes that move nodes of beams, nor of beams that move nodes of others
     by_rates = coordinates == "absolute" and len(system.map.turns) == 0
-    unknown = wanted.whole or wanted.along or by_rates or beam_tables.has_carried_nodes(record)
-    by_hand = not unknown and beam_tables.has_elastic_beams(record)
-    plain = beam_tables.plain_nodes(system, part) if by_hand else {}
+    unknown = wanted.whole or wanted.along or by_rates or nivel.system.beam_tables.has_carried_nodes(record)
+    by_hand = not unknown and nivel.system.beam_tables.has_elastic_beams(record)
+    plain = nivel.system.beam_tables.plain_nodes(system, part) if by_hand else {}
     # over a whole step the forces of joints act at the mean place, C is that of the end
     mirrored = wanted.free is None and not len(system.frictions)
     groups = unknown_groups(system, velocities, row, part, coordinates)
@@ -146,7 +143,7 @@ def _with_rows(
         hooks=_hooks(system, path, wanted, by_hand=by_hand),
     )
     if by_hand:
-        record = record._replace(beams=beam_tables.tangent_tables(record, plan, plain))
+        record = record._replace(beams=nivel.system.beam_tables.tangent_tables(record, plan, plain))
     twin = _twin(record, held=by_hand)
     family, instant = _families(path, wanted)
     record.newton.address[:] = twin.address, family.dual_address, instant.dual_address
@@ -183,7 +180,7 @@ def _residual(
         stiction=frictions_with_stiction(system),
         free=wanted.free,
         flexible=(len(own.p), len(own.frame), len(own.body)) if whole else (0, 0, 0),
-        nodes=nodes_of_elements(record) if whole else [],
+        nodes=nivel.elements.beams.exact.nodes_of_elements(record) if whole else [],
     )
     if whole:
         solid = np.flatnonzero(~system.point_masses)
@@ -223,7 +220,7 @@ def _hooks(system: System, path: PathFacts, wanted: ResidualOptions, *, by_hand:
     family, instant = _families(path, wanted)
     address[kernels.RESIDUAL], address[kernels.MOMENTARY] = family.address, instant.address
     if by_hand:
-        address[kernels.TANGENT] = tangent.address
+        address[kernels.TANGENT] = nivel.elements.beams.exact_slopes.tangent.address
     if len(record.modal.carrier):
         address[kernels.MODES] = pass_modes.address
     elif wanted.whole and len(record.flexible.body):
@@ -242,7 +239,7 @@ def _longest_chain(record: Record) -> int:
     """Bodies on the longest way from the ground along the tree; 1 where bodies have coordinates of their own."""
     depth: dict[int, int] = {}
     for n, (child, parent) in enumerate(record.tree.node[:, :2].tolist()):
-        depth[child] = max(depth.get(each, 0) for each in (parent, *beam_tables.rail_of(record, n))) + 1
+        depth[child] = max(depth.get(each, 0) for each in (parent, *nivel.system.beam_tables.rail_of(record, n))) + 1
     return max(depth.values(), default=1)
 
 
@@ -267,7 +264,7 @@ def _twin(record: Record, *, held: bool) -> Handle:
         address[hook] = _on_duals(record.hooks.address[hook])
     families = np.array([_on_duals(each) for each in record.elements.address], dtype=np.uint64)
     if held:
-        families[beam_tables.elastic_family(record)] = hold.dual_address
+        families[nivel.system.beam_tables.elastic_family(record)] = nivel.elements.beams.exact.hold.dual_address
     laws = np.array([dual_address(int(each)) if each else 0 for each in record.functions.address], dtype=np.uint64)
     return Handle(
         twin._replace(

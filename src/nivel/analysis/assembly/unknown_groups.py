@@ -13,7 +13,7 @@ from nivel.elements.joints.on_beams import stretches
 from nivel.kernels.bodies.coordinate import ALONG, LEAN_X, LEAN_Y, TWIST
 from nivel.kernels.elements import friction as columns
 from nivel.kernels.record.record import MODAL, NONE, POINT_ON_BEAM, Record
-from nivel.system.beam_tables import rail_of
+from nivel.lazy import nivel
 from nivel.system.builder import NOTHING
 from nivel.system.system import System
 
@@ -27,7 +27,7 @@ class Carrying:
     def __init__(self, record: Record) -> None:
         self._ways: dict[int, tuple[Way, ...]] = {}
         for n, (child, parent, *_) in enumerate(record.tree.node.tolist()):
-            rail = rail_of(record, n)
+            rail = nivel.system.beam_tables.rail_of(record, n)
             turned = record.tree.node[n, 2] != POINT_ON_BEAM
             self._ways[child] = self._sliding(n, stretches(rail, turned=turned)) if rail else self._hanging(n, parent)
 

@@ -8,8 +8,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from nivel.elements.joints.couplings import FunctionCoupling
 from nivel.kernels.record.program_bounds import WIDTH, find_bounds
+from nivel.known import FunctionCoupling
 from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
 from nivel.machine.laws.functions import Sampling

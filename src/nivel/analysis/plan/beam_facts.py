@@ -7,12 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from nivel.elements.beams.beam import Beam
-from nivel.elements.beams.exact import elements_of, gauss, lagrange, skew
-from nivel.elements.beams.models import fastest_of_gradients
-from nivel.elements.beams.sections import BeamSection
 from nivel.elements.joints.joint import Joint
-from nivel.lazy import dataclass, scipy
+from nivel.known import Beam, BeamSection
+from nivel.lazy import dataclass, nivel, scipy
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beam_nodes import with_nodes
@@ -69,12 +66,12 @@ def fastest_frequency(beam: Beam, section: BeamSection) -> float:
     The frequencies of a structure lie below the highest one of its elements (Irons, Treharne 1971).
     """
     if beam.has_gradients:
-        return fastest_of_gradients(beam)
+        return nivel.elements.beams.models.fastest_of_gradients(beam)
     if beam.model == "segments":
         length = beam.line.length * float(np.diff(beam.shares).min())
         stiffness, mass = _stiffness(section, 1, length), _mass_of_halves(section, length)
     else:
-        length = float(elements_of(beam).weight.sum(axis=1).min())
+        length = float(nivel.elements.beams.exact.elements_of(beam).weight.sum(axis=1).min())
         stiffness = _stiffness(section, beam.order, length)
         mass = _mass(section, beam.order, length, lumped=not beam.shares_mass)
     return float(np.sqrt(scipy.linalg.eigh(stiffness, mass, eigvals_only=True)[-1])) / (2.0 * np.pi)
@@ -82,9 +79,9 @@ def fastest_frequency(beam: Beam, section: BeamSection) -> float:
 
 def _stiffness(section: BeamSection, order: int, length: float) -> Array:
     """Stiffness of a straight unstressed element for (place, turn) of its nodes: δΓ = δx' + e₁ × δθ, δΚ = δθ'."""
-    xi, weight = gauss(order)
-    N, D = lagrange(order, xi)
-    size, along = 6 * (order + 1), skew(np.array([1.0, 0.0, 0.0]))
+    xi, weight = nivel.elements.beams.exact.gauss(order)
+    N, D = nivel.elements.beams.exact.lagrange(order, xi)
+    size, along = 6 * (order + 1), nivel.elements.beams.exact.skew(np.array([1.0, 0.0, 0.0]))
     total = np.zeros((size, size))
     for g in range(len(xi)):
         B = np.zeros((6, size))
@@ -97,12 +94,12 @@ def _stiffness(section: BeamSection, order: int, length: float) -> Array:
 
 def _mass(section: BeamSection, order: int, length: float, *, lumped: bool) -> Array:
     """Mass of the element for the same; lumped: what belongs to a node by the shape functions, at that node."""
-    xi, weight = gauss(order + 1)
-    N, _ = lagrange(order, xi)
+    xi, weight = nivel.elements.beams.exact.gauss(order + 1)
+    N, _ = nivel.elements.beams.exact.lagrange(order, xi)
     shares = length * np.einsum("g,ga,gb->ab", weight, N, N)
     if lumped:
         shares = np.diag(shares.sum(axis=1))
-    lever = -skew(section.mass_centre)
+    lever = -nivel.elements.beams.exact.skew(section.mass_centre)
     carried = np.hstack([np.eye(3), lever])
     point = section.mass * carried.T @ carried
     point[3:, 3:] += section.inertia
@@ -113,9 +110,9 @@ def _mass_of_halves(section: BeamSection, length: float) -> Array:
     """Mass of two rigid halves of a piece of this length for (place, turn) of its nodes, at which their outer ends are."""
     total = np.zeros((12, 12))
     for node, share in ((0, 0.5), (6, -0.5)):
-        xi, weight = gauss(2)
+        xi, weight = nivel.elements.beams.exact.gauss(2)
         for place, part in zip(share * length * xi, 0.5 * length * weight, strict=True):
-            lever = -skew(section.mass_centre + np.array([place, 0.0, 0.0]))
+            lever = -nivel.elements.beams.exact.skew(section.mass_centre + np.array([place, 0.0, 0.0]))
             carried = np.hstack([np.eye(3), lever])
             point = section.mass * carried.T @ carried
             point[3:, 3:] += section.inertia

@@ -18,18 +18,14 @@ from collections.abc import Iterable
 from math import ceil
 
 from nivel.analysis.plan.modal_stiffness import goes_by_circuits, only_modes_are_stiff
-from nivel.elements.contacts.contact import Contact, Contacts
-from nivel.elements.forces.actuators import Stop
-from nivel.elements.forces.drive_lines import is_sticking
-from nivel.elements.forces.friction import Friction
 from nivel.elements.joints import JOINTS
 from nivel.integrate.catalogue import INTEGRATORS, step_for
+from nivel.known import Contact, Contacts, Friction, Stop
 from nivel.lazy import nivel
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.methods import chooses
-from nivel.system.beam_nodes import with_nodes
 
 # relative: a body, a row, a row and a joint velocity, an entry of S; absolute: a body, a row and a body, an entry of S
 TREE_BODY, TREE_ROW, TREE_BLOCK, TREE_ENTRY = 110.0, 40.0, 12.0, 2.0
@@ -63,7 +59,7 @@ def integrators_for(machine: MachineRecord) -> tuple[tuple[str, str], ...]:
         return (*((name, STIFF_BEAMS) for name in names), ("dopri5", EXPLICIT_BEAMS), ("rk4", FIXED))
     if any(force.type == "tyre" for force in machine.forces):
         return (("rk4", TYRES),)
-    if any(map(is_sticking, machine.forces)):
+    if any(force.sticks for force in machine.forces):
         return ((FOR_STIFF, STICKING), ("dopri5", STICKING), ("rk4", FIXED))
     return (("dopri5", EXPLICIT), ("rk4", FIXED))
 
@@ -89,7 +85,7 @@ def choose_coordinates(machine: MachineRecord) -> str:
     """The coordinates of a run of `machine`: its own; for `auto` relative where joints are named in `cut`, independent
     where velocities are named in `independent`, else the ones that cost least, of those that its formulation knows.
     """
-    machine = with_nodes(machine)
+    machine = nivel.system.beam_nodes.with_nodes(machine)
     settings = machine.simulation
     if settings.coordinates != "auto":
         return settings.coordinates
@@ -121,8 +117,8 @@ def choose_cut(machine: MachineRecord) -> SimulationSettings:
     reactions of cut joints do in between: they cut at the lightest bodies (20 times less energy error on the spatial slider-crank).
     """
     settings, facts = machine.simulation, INTEGRATORS[machine.simulation.integrator]
-    frictions = [force for force in machine.forces if isinstance(force, Friction) or is_sticking(force)]
-    if frictions and (not facts.residual or any(map(is_sticking, frictions))):
+    frictions = [force for force in machine.forces if isinstance(force, Friction) or force.sticks]
+    if frictions and (not facts.residual or any(force.sticks for force in frictions)):
         # friction needs forces that explicit methods, and with stiction all, know one by one, and bodies carried by beams have none
         sliders = (joint.name for joint in machine.joints if JOINTS[joint.type].rail)
         settings = settings.replace(cut=tuple(dict.fromkeys((*settings.cut, *sliders))))
@@ -136,7 +132,7 @@ def slides(machine: MachineRecord, coordinates: str, formulation: str, cut: Simu
     """Whether with these methods a beam carries a body that slides along it. cut : as `choose_cut` has it, where it is known."""
     if coordinates != "relative" or not any(JOINTS[joint.type].rail for joint in machine.joints):
         return False
-    machine = with_nodes(machine)
+    machine = nivel.system.beam_nodes.with_nodes(machine)
     return nivel.system.states.relative.has_sliders(
         machine, (cut or choose_cut(machine)).replace(formulation=formulation)
     )

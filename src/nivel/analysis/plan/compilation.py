@@ -11,29 +11,21 @@ from nivel.analysis.curves.functions import ExpressionCurve, varying
 from nivel.analysis.curves.path import has_switches
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.progress.log import Listener
-from nivel.elements.beams.exact import hold
-from nivel.elements.beams.models import ELASTIC, family_of
-from nivel.elements.beams.models import FAMILIES as BEAMS
-from nivel.elements.circuits.phase import SLOPES
-from nivel.elements.contacts.contact import Contact
-from nivel.elements.control.units import UnitBlock
 from nivel.elements.forces import FORCES
-from nivel.elements.forces.drive_lines import is_sticking
 from nivel.elements.joints import JOINTS
 from nivel.errors import ModelError, NivelError
 from nivel.integrate.catalogue import all_facts
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.program import run as run_expression
-from nivel.kernels.signals.c_function import output as c_output
-from nivel.kernels.signals.fmu import output as fmu_output
 from nivel.kernels.signals.functions import compute, rate_states, read_inputs
+from nivel.known import CFacts, Contact, UnitBlock
 from nivel.lazy import nivel, rich
-from nivel.machine.control.part import CFacts
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FLEXIBLE, IMPLICIT_ACCELERATIONS, PATHS
 from nivel.native import library
 from nivel.native.entry import Entry, entry_of
 from nivel.native.workers import NO_COMPILER, UNKNOWN_LEVEL, CompilationError
+from nivel.system.beam_tables import ELASTIC
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
@@ -151,7 +143,8 @@ def preparation_entries(methods: Methods) -> list[Entry]:
         twins.append(entry_of(RESIDUAL))
     if integrator.needs == "accelerations" and path.dependent:
         modules.append(f"{path.dependent}:depend")
-    slopes = [SLOPES.get(family) for family in _of_circuits(machine)] if integrator.needs == "circuits" else []
+    circuits = _of_circuits(machine) if integrator.needs == "circuits" else []
+    slopes = [nivel.elements.circuits.phase.SLOPES.get(family) for family in circuits]
     own = _motions(machine) if methods.coordinates == "relative" else []
     twins += [motion.twin for motion in own if twins]
     if methods.coordinates == "relative":
@@ -210,13 +203,15 @@ def all_entries() -> list[Entry]:
         modules += [facts.module, facts.correction, facts.residual, facts.dependent]
     over_steps = [facts.over_step for facts in integrators]
     modules += [*over_steps, *OF_MACHINES, *OF_RUNS, *OF_TREES]
-    signals = (read_inputs, compute, rate_states, c_output, fmu_output, run_expression)
+    of_all = (read_inputs, compute, rate_states, run_expression)
+    foreign = nivel.kernels.signals.c_function.output, nivel.kernels.signals.fmu.output
     forces = (family for kind in FORCES.values() for family in kind.families)
-    families = dict.fromkeys([*forces, *nivel.system.circuit_elements.families(), *BEAMS, *signals])
+    beams, circuits = nivel.elements.beams.models.FAMILIES, nivel.system.circuit_elements.families()
+    families = dict.fromkeys([*of_all, *forces, *circuits, *beams, *foreign])
     residuals = [module for module in (*(path.residual for path in paths), *over_steps) if module]
     twins = [twin for module in dict.fromkeys((*residuals, *WITH_DERIVATIVES)) for twin in _twins(module)]
-    twins += [family.twin for family in (*families, hold)] + _twins(SENSOR)
-    slopes = [each for each in SLOPES.values() if each is not None]
+    twins += [family.twin for family in (*families, nivel.elements.beams.exact.hold)] + _twins(SENSOR)
+    slopes = [each for each in nivel.elements.circuits.phase.SLOPES.values() if each is not None]
     entries = [*_entries(module for module in modules if module), *(each.code for each in (*families, *slopes)), *twins]
     return [*dict.fromkeys(entries)]
 
@@ -249,21 +244,29 @@ def _with_twins(residual: str, used: Sequence[str], families: Iterable[Family], 
     needed = [f"{residual}:residual", *(module for module in WITH_DERIVATIVES if module in used)]
     if FRICTION in used:
         needed.append(GIVEN_FRICTION)
-    of_forces = [(hold if held and family is ELASTIC else family).twin for family in families]
-    return [*_entries(needed), *of_forces, *(twin for module in needed for twin in _twins(module))]
+
+    def of_force(family: Family) -> Family:
+        return nivel.elements.beams.exact.hold if held and family.code.name == ELASTIC else family
+
+    return [
+        *_entries(needed),
+        *(of_force(each).twin for each in families),
+        *(twin for module in needed for twin in _twins(module)),
+    ]
 
 
 def _families(machine: MachineRecord) -> list[Family]:
     """The families of forces that a machine has, and what runs its expressions."""
     families = dict.fromkeys(family for force in machine.forces for family in FORCES[force.type].needed(machine, force))
     families |= dict.fromkeys(_of_circuits(machine))
-    families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
+    families |= dict.fromkeys(nivel.elements.beams.models.family_of(beam) for beam in machine.beams)
     families |= dict.fromkeys([read_inputs] if machine.inputs else [])
     families |= dict.fromkeys([compute, rate_states] if machine.control else [rate_states] if machine.states else [])
     units = [block.facts for block in machine.control if isinstance(block, UnitBlock)]
     # a unit in another process is called as an FMU
     in_c = (isinstance(each, CFacts) and not each.own_process for each in units)
-    families |= dict.fromkeys(c_output if own else fmu_output for own in in_c)
+    signals = nivel.kernels.signals
+    families |= dict.fromkeys((signals.c_function if own else signals.fmu).output for own in in_c)
     return [*families, run_expression]
 
 
@@ -299,12 +302,12 @@ def _rare_modules(machine: MachineRecord) -> list[str]:
     )
     needed = {
         MEASURE: bool(measured),
-        FRICTION: "friction" in types or any(map(is_sticking, machine.forces)),
+        FRICTION: "friction" in types or any(force.sticks for force in machine.forces),
         RAIL: any(JOINTS[joint.type].rail for joint in machine.joints),
         POINTS: any(beam.has_gradients for beam in machine.beams),
         SENSOR: bool(machine.sensors),
         SAMPLING: any(state.update is not None for state in machine.states)
         or bool(machine.control or types & {*DRIVES}),
-        OF_BEAMS: ELASTIC in map(family_of, machine.beams),
+        OF_BEAMS: any(nivel.elements.beams.models.family_of(beam).code.name == ELASTIC for beam in machine.beams),
     }
     return [module for module, asked in needed.items() if asked]

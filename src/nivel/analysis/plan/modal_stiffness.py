@@ -8,13 +8,9 @@ from typing import Final
 
 import numpy as np
 
-from nivel.elements.circuits.component import Component
-from nivel.elements.contacts.contact import Contact
-from nivel.elements.forces.hand import Hand
-from nivel.elements.forces.loads import PointForce, Torque
-from nivel.elements.forces.springs import JointSpringDamper
 from nivel.integrate.catalogue import INTEGRATORS, step_for
 from nivel.integrate.facts import IntegratorFacts
+from nivel.known import Component, Contact, Hand, JointSpringDamper, PointForce, Torque
 from nivel.lazy import nivel
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import mass_properties

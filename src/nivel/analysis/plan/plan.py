@@ -17,12 +17,11 @@ from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.stabilise import STABILISATIONS, Stabilisation
 from nivel.judge.before import refusals
-from nivel.lazy import dataclass, replace
+from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import chooses
 from nivel.motion.catalogue import FORMULATIONS, IMPLICIT_ACCELERATIONS, PathFacts, path_of
-from nivel.system.beam_nodes import with_nodes
 
 # settings that hold constants of one integrator each
 CONSTANTS = {"newmark": "newmark", "hht": "hht", "generalised_alpha": "generalised-alpha"}
@@ -158,7 +157,7 @@ def with_stiff(plan: Plan) -> Plan:
     machine = choice.with_integrator(plan.machine, choice.FOR_STIFF)
     if methods.integrator.name != "dopri5" or _faults_of(machine, settings.coordinates):
         return plan
-    other = with_nodes(machine)
+    other = nivel.system.beam_nodes.with_nodes(machine)
     stiff = replace(methods, machine=other, integrator=integrator_of(other, settings.coordinates))
     return replace(plan, methods=replace(methods, stiff=stiff))
 
@@ -197,7 +196,7 @@ def methods_of(machine: MachineRecord, formulation: str = "newton-euler", coordi
 
     Raises ModelError where they do not go together.
     """
-    machine = with_nodes(machine)
+    machine = nivel.system.beam_nodes.with_nodes(machine)
     refuse(refusals.shared_mass(machine, formulation, coordinates))
     refuse(refusals.flexible_lagrange(machine, formulation))
     simulation, cut = machine.simulation, choice.choose_cut(machine)

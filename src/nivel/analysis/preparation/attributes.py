@@ -6,15 +6,15 @@ import json
 from pathlib import Path
 from typing import Protocol
 
-import nivel
+from nivel import __version__
 from nivel.analysis.plan.choice import names_no_integrator
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.flexible.body.body_file import fingerprint
+from nivel.lazy import nivel
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.contents import ATTRIBUTE as RESULT_FORMAT
 from nivel.results.frames.contents import FORMAT
 from nivel.results.stress import ATTRIBUTE, BodySource, as_attribute
-from nivel.system.beam_nodes import with_nodes
 from nivel.system.flexible import bending_bodies
 from nivel.system.scene import scene
 
@@ -46,9 +46,9 @@ def run_attributes(
         ),
         "machine_source": source,
         # relative coordinates move body frames
-        "scene": json.dumps(scene(with_nodes(machine), prepared.absolute.system)),
+        "scene": json.dumps(scene(nivel.system.beam_nodes.with_nodes(machine), prepared.absolute.system)),
         "settings": settings_in_json(settings, reason),
-        "nivel_version": nivel.__version__,
+        "nivel_version": __version__,
         RESULT_FORMAT: FORMAT,
         "outcome": "running",
         "coordinate_units": json.dumps(dict(zip(coordinates, system.coordinate_units, strict=True))),

@@ -22,7 +22,6 @@ from nivel.analysis.assembly.unique_reactions import leave_out, rows_everywhere
 from nivel.analysis.curves.corners import allowed_steps, corners, jumping_functions
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.memory import in_one_piece
-from nivel.elements.beams.beam import Beam
 from nivel.errors import Fault, ModelError, refuse
 from nivel.integrate.facts import IntegratorFacts
 from nivel.judge.before.refusals import (
@@ -34,6 +33,7 @@ from nivel.judge.before.refusals import (
 )
 from nivel.kernels.core.arrays import copied
 from nivel.kernels.record.record import Record
+from nivel.known import Beam
 from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of

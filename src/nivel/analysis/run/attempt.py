@@ -17,9 +17,9 @@ from nivel.analysis.run.second_run import SecondRun, Verified
 from nivel.errors import ModelError, SolveError
 from nivel.integrate.loop.sink import Header
 from nivel.judge.after.checks.accuracy import factor
-from nivel.judge.after.other_elements import Compared, Pair, element_errors, other_elements
+from nivel.judge.after.other_elements import Compared, Pair
 from nivel.judge.after.subject import Run, run_of
-from nivel.lazy import dataclass, replace
+from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.estimate import estimate_errors
 from nivel.results.memory import Memory
@@ -52,7 +52,11 @@ class Found:
     def compared(self, machine: MachineRecord, result: Result) -> Compared:
         """What follows for a result of a machine."""
         other = self.verified.result if self.verified is not None else None
-        errors = element_errors(result, other, self.pair.factor) if other is not None else None
+        errors = (
+            nivel.judge.after.other_elements.element_errors(result, other, self.pair.factor)
+            if other is not None
+            else None
+        )
         return Compared(pair=self.pair, result=other, errors=errors, why=self.why, drawn=_drawn(machine, result))
 
 
@@ -74,7 +78,7 @@ class ElementsRun:
     @classmethod
     def beside(cls, second: SecondRun, plan: Plan, limit: float | None) -> ElementsRun | None:
         """Of a plan that has a second run; None where there are no beams. limit [s] : as of `SecondRun`."""
-        pair = other_elements(plan.machine)
+        pair = nivel.judge.after.other_elements.other_elements(plan.machine)
         if pair is None:
             return None
         methods = methods_of(pair.machine, plan.methods.formulation, plan.methods.coordinates)

@@ -12,8 +12,6 @@ from nivel.analysis.assembly.implicit import constraint_index
 from nivel.analysis.curves.corners import corners
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.elements.contacts import height_way, heights
-from nivel.elements.contacts.heights import rows_over_heights
 from nivel.integrate.explicit.dormand_prince import COUNTS as COUNTS_STIFF
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop import run as of_run
@@ -28,11 +26,13 @@ from nivel.kernels.record.record import WATCH, Sampled
 from nivel.kernels.signals.functions import sample
 from nivel.kernels.signals.watch import watch
 from nivel.kernels.solve.saddle import CONTRADICTORY, MOST_UNSETTLED
+from nivel.lazy import nivel
 from nivel.motion.direct import VISIBLE
 from nivel.system.elimination.partition import forget
 from nivel.system.signals.control import ONCE
 from nivel.system.signals.user_states import ratio_of
 from nivel.system.system import Array, System
+from nivel.system.tables import OVER_HEIGHTS, rows_of
 
 BUFFER_BYTES = 1_000_000
 EVENT_ROWS = 1000
@@ -264,12 +264,12 @@ def _watch(system: System, *, chosen: bool) -> int:
     count = len(watched.event) + (len(watched.surface) + len(watched.switch) if chosen else 0)
     if count:
         system.record.hooks.address[WATCH] = watch.address
-    first, last = rows_over_heights(system.record.elements)
+    first, last = rows_of(system.record.elements, OVER_HEIGHTS)
     if last > first:
         watched.followed[1:] = first, last
-        system.record.hooks.address[WATCH] = height_way.watch.address
-        noted = [heights.MISSED, heights.SEEN]
-        system.record.elements.number[first:last, noted] = 0.0
+        system.record.hooks.address[WATCH] = nivel.elements.contacts.height_way.watch.address
+        heights = nivel.elements.contacts.heights
+        system.record.elements.number[first:last, [heights.MISSED, heights.SEEN]] = 0.0
     return count
 
 

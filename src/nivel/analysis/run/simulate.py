@@ -29,11 +29,10 @@ from nivel.errors import ModelError, SolveError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.run import ITERATED, MOST_ITERATED, STEPPED, TAKEN
 from nivel.integrate.loop.sink import Header
-from nivel.judge.after.other_elements import with_elements
 from nivel.judge.after.report import assess, lines_apart
 from nivel.judge.after.subject import Run, run_of
 from nivel.judge.during.stop import Status
-from nivel.lazy import dataclass, replace
+from nivel.lazy import dataclass, nivel, replace
 from nivel.results.curve import PROBED
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
 from nivel.results.frames.summary import ATTRIBUTE as ITERATIONS
@@ -300,7 +299,7 @@ def close_run(
     if judge:
         attributes["trust"] = (trust or assess(run)).to_json()
     if estimate is not None and run.elements is not None and run.elements.errors is not None:
-        estimate = with_elements(estimate, run.elements.errors)
+        estimate = nivel.judge.after.other_elements.with_elements(estimate, run.elements.errors)
     if estimate is not None:
         attributes[ESTIMATES] = estimate.to_json()
     closed = sink.close(attributes)

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.elements.beams.beam import Beam
 from nivel.elements.beams.exact import gauss, section_forces
 from nivel.elements.beams.gradients import STEP, Array, hermite, lengths_of, moved_vectors, unstressed_vectors
 from nivel.kernels.algebra.gradients import (
@@ -32,6 +31,7 @@ from nivel.kernels.algebra.spatial import dot
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
+from nivel.known import Beam
 from nivel.lazy import dataclass
 from nivel.native.function import stage
 

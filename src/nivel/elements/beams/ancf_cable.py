@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.elements.beams.beam import Beam
 from nivel.elements.beams.exact import gauss
 from nivel.elements.beams.gradients import STEP, Array, hermite, lengths_of, line_at, moved_vectors
 from nivel.kernels.algebra.analytic import arctan2
@@ -29,6 +28,7 @@ from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
+from nivel.known import Beam
 from nivel.native.function import stage
 
 WIDTH = 2  # vectors of a node

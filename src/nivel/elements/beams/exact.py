@@ -17,7 +17,6 @@ locking; mass exactly.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,15 +33,13 @@ from nivel.kernels.bodies.shared_mass import less, product, transposed_product
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import FAMILIES, Family, family
 from nivel.kernels.record.record import NONE, Record, record_at
+from nivel.known import SystemBuilder
 from nivel.lazy import dataclass, scipy
 from nivel.machine.core.orientation import matrix_from_euler_parameters
 from nivel.machine.core.placement import placement
 from nivel.machine.core.record import GROUND
 from nivel.machine.core.vectors import Array
 from nivel.native.function import stage
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 MOST = 4  # nodes of an element
 

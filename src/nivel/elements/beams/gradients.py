@@ -7,20 +7,16 @@ The vectors of a node are its place r and gradients: along the beam ∂r/∂X, a
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from nivel.elements.beams.beam import Beam
 from nivel.elements.beams.exact import gauss
-from nivel.elements.beams.sections import BeamSection
 from nivel.elements.states import Coupled
 from nivel.kernels.record.hook import Family
+from nivel.known import Beam, BeamSection, SystemBuilder
 from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 VECTORS = 72  # places, rates and forces of an element
 STEP = 1e-30  # of a complex step

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from nivel.elements.beams.ancf_beam import apply as ancf_beam
 from nivel.elements.beams.ancf_beam import beam_numbers, beam_stiffness
 from nivel.elements.beams.ancf_cable import apply as ancf_cable
 from nivel.elements.beams.ancf_cable import cable_numbers, cable_stiffness
-from nivel.elements.beams.beam import Beam
 from nivel.elements.beams.exact import add_elements
 from nivel.elements.beams.exact import apply as damped
 from nivel.elements.beams.exact import apply_elastic as elastic
@@ -18,10 +15,8 @@ from nivel.elements.beams.gradients import add_gradients, consistent_mass, lengt
 from nivel.elements.beams.segments import add_segments
 from nivel.elements.forces.bushing import apply as bushing
 from nivel.kernels.record.hook import Family
+from nivel.known import Beam, SystemBuilder
 from nivel.lazy import scipy
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 # kernels of elements: those without damping, whose derivatives are found by hand, and all others; of springs between segments
 ELASTIC, OTHER, SPRINGS = elastic, damped, bushing

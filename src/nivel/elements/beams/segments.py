@@ -9,20 +9,16 @@ energy of linear elements with one point of integration: errors fall with l².
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nivel.elements.beams.beam import Beam
 from nivel.elements.beams.exact import Array, gauss, relative_turns
 from nivel.elements.forces.bushing import BushingRow
 from nivel.elements.forces.bushing import apply as bushing
 from nivel.elements.states import Coupled
 from nivel.kernels.record.record import NONE
+from nivel.known import Beam, SystemBuilder
 from nivel.lazy import dataclass
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 # points of integration over half of a segment: exact for straight beams, to round-off for arcs of a few degrees
 POINTS = 8

@@ -4,18 +4,19 @@
 # pyright: reportOptionalMemberAccess=false
 """Components of hydraulic and pneumatic circuits, a file for each family of kinds."""
 
-from typing import TYPE_CHECKING, Annotated, Any, Final
+from __future__ import annotations
 
-from nivel.elements.circuits.component import Component
-from nivel.elements.circuits.kind import ComponentKind
+from typing import TYPE_CHECKING, Annotated, Any
+
 from nivel.elements.kind import Kinds, OneOf
+from nivel.known import Component, ComponentKind
 
-COMPONENTS: Final = Kinds[ComponentKind](__name__, noun="component")
+COMPONENTS: Kinds[ComponentKind] = Kinds(__name__, noun="component")
 
 if TYPE_CHECKING:
     HydraulicComponent = Component
 else:
-    HydraulicComponent = Annotated[Component, OneOf(COMPONENTS)]
+    HydraulicComponent = Annotated[Any, OneOf(COMPONENTS)]
 
 
 def record_of(word: object) -> type[Component] | None:

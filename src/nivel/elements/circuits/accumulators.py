@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from nivel.elements.circuits.volumes import THETA
 from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.kernels.record.record import record_at
+from nivel.known import Node, Swept, SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Exponent
 from nivel.machine.core.coefficient import Volume as VolumeSize
@@ -33,11 +34,6 @@ from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.quantity import Duration
 from nivel.native.function import leaf
-
-if TYPE_CHECKING:
-    from nivel.elements.circuits.kind import Swept
-    from nivel.elements.circuits.nodes import Node
-    from nivel.system.builder import SystemBuilder
 
 LEAST_NITROGEN, MOST_NITROGEN, COLD, HOT = 1e5, 4e7, 233.0, 423.0  # Pa, K: of the precharge of nitrogen
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
@@ -17,15 +17,13 @@ from nivel.elements.circuits.pistons import PistonFriction, displace, guide, pre
 from nivel.elements.circuits.poppets import lift
 from nivel.elements.circuits.restrictions import CUSHION, TRANSITION, add_flow, rated, restrict
 from nivel.elements.circuits.symbol import Symbol, path
+from nivel.known import SystemBuilder
 from nivel.machine.core.between import Ends
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Displacement, Leakage, Share, Volume
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord, Usual
 from nivel.machine.units.quantity import Angle, PositiveLength, Quantity, listed
 from nivel.machine.uses.coordinate_reference import CoordinateReference
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 MOST_STAGES = 5
 

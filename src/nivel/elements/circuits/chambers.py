@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component
@@ -14,15 +14,12 @@ from nivel.elements.contacts.impact import damping_of_restitution
 from nivel.elements.states import Coupled
 from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.record.record import NONE
+from nivel.known import Node, SystemBuilder
 from nivel.machine.core.between import Ends
 from nivel.machine.core.coefficient import Restitution, ThermalConductance
 from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, Maybe, OneNumber, Usual
 from nivel.machine.units.quantity import Quantity
-
-if TYPE_CHECKING:
-    from nivel.elements.circuits.nodes import Node
-    from nivel.system.builder import SystemBuilder
 
 StopStiffness = Annotated[OneNumber, Quantity(("stiffness", "torsional stiffness"), positive=True)]
 SINGLE = ("single", "plunger")  # what has no chamber B

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from nivel.elements.circuits.poppets import NODES, lift
 from nivel.elements.circuits.restrictions import DIRECT, add_flow, rated, restrict
 from nivel.elements.states import StateFact
 from nivel.kernels.record.record import NONE
+from nivel.known import SystemBuilder
 from nivel.machine.core.element import Acts
 from nivel.machine.laws.time_function import TimeFunction
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 # what is closed has no flow but its leak
 PASSES = Acts(

@@ -21,7 +21,7 @@ heat/(ṁ c): T_out - T_c = (T_in - T_c) exp(-H/(ṁ c)).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
@@ -42,11 +42,9 @@ from nivel.kernels.core.status import NO_VOLUME, OK
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import SystemBuilder
 from nivel.machine.given import Field
 from nivel.machine.laws.time_function import OneFunction, varying
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 VaryingConductance = Annotated[OneFunction, varying("thermal conductance")]
 

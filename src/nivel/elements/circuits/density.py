@@ -12,15 +12,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from nivel.elements.circuits.fluids import ATMOSPHERE, GRADES, REFERENCE_PRESSURE, REFERENCE_TEMPERATURE, ROOM, Gas
+from nivel.elements.circuits.fluids import ATMOSPHERE, GRADES, REFERENCE_PRESSURE, REFERENCE_TEMPERATURE, ROOM
+from nivel.known import Fluid, Gas
 from nivel.native.function import leaf
-
-if TYPE_CHECKING:
-    from nivel.elements.circuits.fluids import Fluid
 
 # columns of `Circuit.fluid`: fraction of air, bulk modulus [Pa] of the liquid at pa, its slope, polytropic exponent, ρ₀ [kg/m³],
 # kinematic viscosity [m²/s]

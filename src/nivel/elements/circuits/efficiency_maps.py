@@ -11,8 +11,6 @@ the points are those of the map.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from nivel.elements.circuits.density import thickness
@@ -38,11 +36,8 @@ from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import RotaryMachine, SystemBuilder
 from nivel.native.function import leaf, stage
-
-if TYPE_CHECKING:
-    from nivel.elements.circuits.rotary import RotaryMachine
-    from nivel.system.builder import SystemBuilder
 
 # columns of `columns` behind those of `nivel.elements.circuits.rotary`: tables whose knots are the speeds, pressures and settings; one
 # whose coefficients are C and c, the last axis changing first

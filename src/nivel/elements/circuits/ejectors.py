@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
@@ -25,14 +25,12 @@ from nivel.elements.circuits.symbol import Symbol, path
 from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.record import record_at
+from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import NotNegativePressure, Share, SonicConductance
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber
 from nivel.machine.units.quantity import Quantity, listed
 from nivel.native.function import leaf
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 MOST_OF_EJECTOR = 5  # of the characteristic of an ejector
 

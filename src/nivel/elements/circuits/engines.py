@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from math import pi
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component
@@ -27,13 +27,11 @@ from nivel.elements.states import Coupled, StateFact
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import NotNegativeTorque, Share, Torques
 from nivel.machine.given import Field, OneRecord, Usual
 from nivel.native.function import stage
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 
 class TorqueCurve(Checked):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal
+from typing import Annotated, Any, ClassVar, Final, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated, VaryingPressure, problem_of_share
@@ -12,14 +12,12 @@ from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
 from nivel.elements.circuits.restrictions import GIVEN, add_flow, rated
 from nivel.elements.circuits.symbol import SPRING, Symbol, adjustable, check_at, in_bar, letters, moved, path, varies
+from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Leakage, Pressure, Share, Truth
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field
 from nivel.machine.laws.time_function import OneFunction, varying
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 Setting = Annotated[OneFunction, varying("number")]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated
@@ -14,14 +14,12 @@ from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
 from nivel.elements.circuits.restrictions import TRANSITION, add_flow
 from nivel.elements.circuits.symbol import Symbol, arrow, check_at, in_bar, moved, path
+from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Leakage, PositiveNumber, Truth
 from nivel.machine.core.element import Acts, Inequalities
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Maybe
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 
 class CounterbalanceValve(Rated):

@@ -16,7 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from math import pi
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -34,17 +34,13 @@ from nivel.elements.circuits.tangent import add_by_pressure, add_flow_by_column
 from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.kernels.record.record import record_at
+from nivel.known import Node, Swept, SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import NotNegativeNumber, Truth
 from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, Maybe, OneRecord
 from nivel.machine.units.quantity import Whole
 from nivel.native.function import leaf
-
-if TYPE_CHECKING:
-    from nivel.elements.circuits.kind import Swept
-    from nivel.elements.circuits.nodes import Node
-    from nivel.system.builder import SystemBuilder
 
 MOST_SEGMENTS, MOST_ITERATIONS = 100, 50
 CRITICAL_REYNOLDS = (0.3164 / 64.0) ** (-4.0 / 3.0)  # where 64/Re is 0.3164 Re^(-1/4)

@@ -6,7 +6,7 @@ The load of a valve is the pressure at A or B, whichever it feeds, and that of i
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import BeforeValidator
@@ -27,16 +27,13 @@ from nivel.elements.circuits.volumes import SIGNAL
 from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import Swept, SystemBuilder
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Share
 from nivel.machine.core.record import Name
 from nivel.machine.given import Field, ManyNames
 from nivel.machine.units.quantity import Duration, listed
 from nivel.native.function import stage
-
-if TYPE_CHECKING:
-    from nivel.elements.circuits.kind import Swept
-    from nivel.system.builder import SystemBuilder
 
 
 class LoadSensing(Component):

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from nivel.elements.circuits.density import HEAT_CAPACITY, START, density_and_modulus
-from nivel.elements.circuits.fluids import OIL, Gas
+from nivel.elements.circuits.fluids import OIL
 from nivel.elements.circuits.kind import Swept
 from nivel.elements.circuits.volumes import VOLUME
 from nivel.elements.states import StateFact
 from nivel.kernels.record.record import NONE
+from nivel.known import Component, Gas, NodeMaker, SystemBuilder
 from nivel.lazy import dataclass
-
-if TYPE_CHECKING:
-    from nivel.elements.circuits.component import Component
-    from nivel.elements.circuits.kind import NodeMaker
-    from nivel.system.builder import SystemBuilder
 
 
 @dataclass(frozen=True)

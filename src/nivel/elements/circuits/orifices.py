@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component, Rating, problem_of_share
@@ -12,14 +12,11 @@ from nivel.elements.circuits.gases import GAS_CONSTANT, RATIO, REFERENCE
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.restrictions import FIXED, GIVEN, add_flow, rated, restrict
 from nivel.elements.circuits.symbol import Symbol, path
+from nivel.known import Node, SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Leakage, Share
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.time_function import OneFunction, varying
-
-if TYPE_CHECKING:
-    from nivel.elements.circuits.nodes import Node
-    from nivel.system.builder import SystemBuilder
 
 Opening = Annotated[OneFunction, varying("number")]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated
@@ -11,12 +11,9 @@ from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
 from nivel.elements.circuits.restrictions import add_flow
 from nivel.elements.circuits.symbol import BAR, Symbol, path, square
+from nivel.known import SystemBuilder, TimeFunction
 from nivel.machine.core.coefficient import Leakage, Pressure, Share, VolumeFlow
 from nivel.machine.given import Field
-
-if TYPE_CHECKING:
-    from nivel.machine.laws.time_function import TimeFunction
-    from nivel.system.builder import SystemBuilder
 
 
 class _Piloted(Rated):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component
@@ -27,11 +27,9 @@ from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.record import record_at
+from nivel.known import SystemBuilder
 from nivel.machine.core.coefficient import Truth
 from nivel.machine.given import Field
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 
 class Pipe(Component):

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -29,14 +28,11 @@ from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real, tanh
 from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import HydraulicMotor, Pump, SystemBuilder
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import Numbers
 from nivel.machine.given import Field
 from nivel.native.function import leaf, stage
-
-if TYPE_CHECKING:
-    from nivel.elements.circuits.pumps import HydraulicMotor, Pump
-    from nivel.system.builder import SystemBuilder
 
 
 class CutOffCurve(Checked):

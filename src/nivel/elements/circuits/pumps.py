@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from math import pi
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component, problem_of_share
@@ -24,6 +24,7 @@ from nivel.elements.circuits.restrictions import TRANSITION, add_flow, restrict
 from nivel.elements.circuits.rotary import SETTING, RotaryMachine, Setting, set_displacement, supply, turn
 from nivel.elements.circuits.symbol import Symbol, adjustable, circle, path, setting, varies
 from nivel.kernels.record.record import NONE
+from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Displacement, Share
 from nivel.machine.core.record import Name
@@ -31,9 +32,6 @@ from nivel.machine.given import Field, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.formula import linear
 from nivel.machine.units.quantity import Duration, Quantity
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 Speed = Annotated[OneFunction, varying("angular velocity")]
 

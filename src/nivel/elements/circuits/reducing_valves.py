@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated, VaryingPressure
@@ -12,13 +12,11 @@ from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.restrictions import add_flow, rated
 from nivel.elements.circuits.symbol import BAR, Symbol, adjustable, check_at, in_bar, path, square, varies
+from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Leakage, Share, Truth
 from nivel.machine.core.record import entry
 from nivel.machine.given import Field
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 
 class ReducingValve(Rated):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated
@@ -11,13 +11,11 @@ from nivel.elements.circuits.composed import OF_POPPETS, PASSES, add_check_betwe
 from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.symbol import BAR, Symbol, check_at, in_bar, path, square
+from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Leakage
 from nivel.machine.core.element import Inequalities
 from nivel.machine.given import Field, Maybe
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 
 class ReliefValve(Rated):

@@ -8,8 +8,6 @@ their overlap.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from nivel.elements.circuits.density import thickness
@@ -23,11 +21,8 @@ from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import Rating, SystemBuilder
 from nivel.native.function import leaf, stage
-
-if TYPE_CHECKING:
-    from nivel.elements.circuits.component import Rating
-    from nivel.system.builder import SystemBuilder
 
 # columns of `columns`; POSITION: output of the valve, or a function. Output: flow [m³/s]
 OUTPUT, FROM, TO, KIND, POSITION = 0, 1, 2, 3, 4

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated, VaryingPressure, problem_of_share
@@ -15,6 +15,7 @@ from nivel.elements.circuits.poppets import lift
 from nivel.elements.circuits.restrictions import EDGE, add_flow, restrict
 from nivel.elements.circuits.symbol import Symbol, arrow, in_bar, moved, path
 from nivel.elements.circuits.ways import directional_valve
+from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Leakage, PositiveNumber
 from nivel.machine.core.coefficient import Share as Proportion
@@ -22,9 +23,6 @@ from nivel.machine.core.record import entry
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Quantity
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 NODES_OF = {"none": (), "pre": (".M",), "post": (".M", ".C")}
 

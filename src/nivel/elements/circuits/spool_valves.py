@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator
 
@@ -16,6 +16,7 @@ from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.symbol import Symbol
 from nivel.elements.circuits.ways import spool
 from nivel.kernels.record.record import NONE
+from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import NotNegativeNumber, PositiveNumber
 from nivel.machine.core.record import entry
@@ -23,9 +24,6 @@ from nivel.machine.given import Field, Given, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import PositiveLength, Quantity, fault
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 PORTS = ("P", "T", "A", "B", "C", "R", "S", "LS")
 

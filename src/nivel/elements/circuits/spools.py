@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import numpy as np
 
@@ -32,17 +32,13 @@ from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real, tanh
 from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import SpoolValve, SystemBuilder, TimeFunction
 from nivel.machine.core.checked import Checked
 from nivel.machine.core.coefficient import Frequency, NotNegativeDuration, NotNegativeForce, PositiveNumber, Truth
 from nivel.machine.given import Field, OneNumber
 from nivel.machine.laws.table import Table
 from nivel.machine.units.quantity import Duration, Quantity
 from nivel.native.function import leaf
-
-if TYPE_CHECKING:
-    from nivel.elements.circuits.spool_valves import SpoolValve
-    from nivel.machine.laws.time_function import TimeFunction
-    from nivel.system.builder import SystemBuilder
 
 SYMBOL, CURRENT_SYMBOL = "position", "current"
 

@@ -7,7 +7,7 @@ an accumulator; that of an open one gives way to the liquid at atmospheric press
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component, VaryingTemperature
@@ -32,15 +32,12 @@ from nivel.elements.states import Coupled
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import Swept, SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Area, Exponent, ThermalConductance, Truth
 from nivel.machine.core.record import Name
 from nivel.machine.given import Field, Maybe, OneRecord
 from nivel.machine.units.quantity import PositiveLength
-
-if TYPE_CHECKING:
-    from nivel.elements.circuits.kind import Swept
-    from nivel.system.builder import SystemBuilder
 
 
 class Volume(Component):

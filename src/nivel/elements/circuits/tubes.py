@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -29,16 +29,12 @@ from nivel.elements.circuits.symbol import pipe
 from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.kernels.record.record import record_at
+from nivel.known import Node, Swept, SystemBuilder
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import NotNegativeNumber
 from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.quantity import Whole
-
-if TYPE_CHECKING:
-    from nivel.elements.circuits.kind import Swept
-    from nivel.elements.circuits.nodes import Node
-    from nivel.system.builder import SystemBuilder
 
 AIR_VISCOSITY = 18.2e-6  # Pa s, at 20 °C
 

@@ -31,15 +31,12 @@ from nivel.machine.power_stiffness import PowerStiffness
 from nivel.machine.units.quantity import PositiveLength, Whole, listed
 
 HERTZ: Final = 1.5  # exponent of two elastic spheres
-HULLS: Final = ("box", "cylinder", "extrusion", "mesh")  # that touch each other, with their convex hulls
-ROUND: Final = ("sphere", "capsule", "ellipsoid")  # that touch everything at the nearest points
 FrictionWord = Literal["stiction", "coulomb"]
 FrictionModel = Given[FrictionWord, FrictionWord, FrictionWord]
 FRICTION_MODELS: Final = (
     "stiction sticks; with coulomb friction goes as tanh(sliding speed / friction_transition_speed), so bodies creep; "
     "default coulomb where a friction_transition_speed is given, else stiction"
 )
-SHAPES_ON_PLANE: Final = (*ROUND, *HULLS)
 HEAT: Final = Output("friction_power", "W", "power that friction turns to heat")
 WORK: Final = Output("friction_work", "J", "work of friction that became heat since the start")  # where it is asked for
 

@@ -16,7 +16,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from nivel.elements.contacts.contact import Contact
 from nivel.elements.contacts.law import (
     NORMAL,
     NUMBERS,
@@ -39,6 +38,7 @@ from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.elements.patch import axis, minus, plus
 from nivel.kernels.record.record import record_at
+from nivel.known import Contact
 from nivel.machine.bodies.shape import Capsule, Ellipsoid, Sphere
 from nivel.machine.bodies.solids import length
 from nivel.machine.bodies.touching import Touching

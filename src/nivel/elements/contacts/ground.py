@@ -12,7 +12,6 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.contacts.contact import Contact
 from nivel.elements.contacts.law import (
     COLUMNS,
     MARKER,
@@ -34,6 +33,7 @@ from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.elements.patch import axis, minus, plus
 from nivel.kernels.record.record import record_at
+from nivel.known import Contact
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import box_size
 from nivel.machine.bodies.solids import length as bar_length

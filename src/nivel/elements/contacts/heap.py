@@ -7,8 +7,6 @@ grid that are larger than the largest sphere. Then a step costs as much for each
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from nivel.elements.contacts.contact import WORK, Contacts
@@ -38,13 +36,9 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.elements.patch import axis, minus
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import MachineRecord, SystemBuilder
 from nivel.machine.bodies.shape import Sphere
 from nivel.native.function import leaf, part, stage
-
-if TYPE_CHECKING:
-    from nivel.machine.machine_record import MachineRecord
-    from nivel.system.builder import SystemBuilder
-
 
 # columns of the pair; then the markers of the spheres and those of the planes
 SPHERES, PLANES, FIRST = COLUMNS, COLUMNS + 1, COLUMNS + 2

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.contacts.contact import Contact
 from nivel.elements.contacts.ground import (
     CYLINDER,
     KIND,
@@ -49,13 +48,15 @@ from nivel.elements.contacts.shapes import ball_of_shape, corners_of_parts
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK
 from nivel.kernels.elements.patch import axis, minus, plus
-from nivel.kernels.record.hook import FAMILIES, family
-from nivel.kernels.record.record import Elements, record_at
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
 from nivel.machine.bodies.touching import Touching
 from nivel.native.function import leaf, part, stage
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from nivel.elements.contacts.contact import Contact
 
 
 # numbers: counts of heights along x and y, the lengths between the outermost of them, a bound that no height passes, one of the second
@@ -324,14 +325,6 @@ def apply_over_heights(machine, number, t):
                     numbers[NORMAL + a] = total[a] / size
         report_contact(machine, k)
     return OK
-
-
-def rows_over_heights(elements: Elements) -> tuple[int, int]:
-    """First element of contacts with ground that has heights, and one past the last."""
-    for address, (first, last) in zip(elements.address, elements.span, strict=True):
-        if FAMILIES.get(int(address)) is apply_over_heights:
-            return int(first), int(last)
-    return 0, 0
 
 
 def points_over_heights(force: Contact, bodies: Sequence[Touching]) -> Points:

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.elements.contacts.contact import Contact
 from nivel.elements.contacts.law import SURFACE_NUMBERS, find_surface, place_patch, velocity_at
 from nivel.elements.contacts.pressure_cells import (
     along_plane,
@@ -35,6 +34,7 @@ from nivel.kernels.elements.touch import SLIP as SLIP_SPEED
 from nivel.kernels.forces.wrench import add_force_at, add_torque
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import Contact
 from nivel.native.function import leaf, stage
 
 # columns of `columns`; MARKER, OTHER: axes of the two hulls; counts of their corners and faces; the patch as in

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 
 from nivel.elements.contacts import ellipsoids, ground, height_way, heights, hulls, rounds
-from nivel.elements.contacts.contact import WORK, Contact, Contacts, Material
+from nivel.elements.contacts.contact import WORK, Contact
 from nivel.elements.contacts.law import Points, law_numbers
 from nivel.elements.contacts.shapes import (
     hull_of,
     part_of,
     shape_marker,
 )
-from nivel.elements.forces.actuators import Stop
 from nivel.elements.forces.friction import ROUND_FACE, add_friction_work, add_patch, rub_off
 from nivel.elements.kind import Kind
 from nivel.elements.output import add_outputs
@@ -24,15 +23,12 @@ from nivel.kernels.elements.touch import DEPTH, LOST, RATE
 from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE
+from nivel.known import Contacts, MachineRecord, Material, Stop, SystemBuilder
 from nivel.machine.bodies.shape import Cylinder, Ellipsoid, Sphere
 from nivel.machine.bodies.touching import Touching
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.time_function import TimeFunction, check_smooth
 from nivel.machine.units.tree import ExpressionError
-
-if TYPE_CHECKING:
-    from nivel.machine.machine_record import MachineRecord
-    from nivel.system.builder import SystemBuilder
 
 
 def add_contact(builder: SystemBuilder, force: Contact) -> None:

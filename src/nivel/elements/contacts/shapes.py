@@ -5,22 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.contacts.contact import Contact
 from nivel.errors import Fault, ModelError
+from nivel.known import Contact, SystemBuilder
 from nivel.lazy import dataclass, scipy
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface, part_corners
 from nivel.machine.bodies.touching import Touching
 from nivel.machine.core.placement import frame_from_axes
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
-
 
 Array = NDArray[np.float64]
 # Triangles whose normals agree to this are one face.

@@ -7,14 +7,15 @@
 from typing import TYPE_CHECKING, Annotated, Any, Final
 
 from nivel.elements.kind import Kind, Kinds, OneOf
-from nivel.machine.control.block import Block
 
 BLOCKS: Final = Kinds[Kind](__name__, noun="block")
 
 if TYPE_CHECKING:
+    from nivel.machine.control.block import Block
+
     ControlBlock = Block
 else:
-    ControlBlock = Annotated[Block, OneOf(BLOCKS)]
+    ControlBlock = Annotated[Any, OneOf(BLOCKS)]
 
 from nivel.elements.control.blocks import DeadZone as DeadZone
 from nivel.elements.control.blocks import Gain as Gain

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from nivel.elements.contacts.impact import damping_of_restitution, impact
 from nivel.elements.kind import Kind
@@ -17,6 +17,7 @@ from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import evaluate_function, evaluate_motion
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import (
     CoordinateDamping,
@@ -37,9 +38,6 @@ from nivel.machine.power_stiffness import PowerStiffness
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import CoordinateReference
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 ACTS = of_effort("effort on the coordinate")
 VALUE = of_value("value", "coordinate")

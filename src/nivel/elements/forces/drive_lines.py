@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
-from nivel.elements.contacts.contact import Contact
-from nivel.elements.forces.friction import Friction
 from nivel.elements.forces.shafts import AT_HIGH, AT_LOW, KEPT, BeltRow, DriveLine, difference, pull_belt
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, is_angle, of_effort
 from nivel.errors import Fault, ModelError
 from nivel.kernels.elements import friction
 from nivel.kernels.record.record import NONE
+from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import (
     CoordinateDamping,
@@ -29,9 +28,6 @@ from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.laws.coordinate_function import CoordinateEffortFunction
 from nivel.machine.units.quantity import Quantity
 from nivel.machine.uses.coordinate_reference import CoordinateReference
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 CAPACITY = "force or torque with which it slips, a function; below zero it is open"
 STATIC_RATIO = "of the effort that it holds at rest to that with which it slips"
@@ -56,6 +52,7 @@ LOCKS: Inequalities = (
 class Brake(ForceElement):
     """Friction between the bodies of a joint, which really holds where less than its capacity is wanted."""
 
+    locks: ClassVar[bool] = True
     outputs: ClassVar[tuple[str, ...]] = LOCK_OUTPUTS
     stiff: ClassVar[bool] = False
 
@@ -75,6 +72,7 @@ class Brake(ForceElement):
 class Clutch(DriveLine):
     """Friction between two joint coordinates, which really locks where less than its capacity is wanted."""
 
+    locks: ClassVar[bool] = True
     outputs: ClassVar[tuple[str, ...]] = LOCK_OUTPUTS
     stiff: ClassVar[bool] = False
 
@@ -153,6 +151,11 @@ class Freewheel(DriveLine):
         """Whether what it takes along is held without any spring."""
         return self.stiffness is None
 
+    @property
+    def sticks(self) -> bool:
+        """Whether it holds the coordinates together."""
+        return self.is_rigid
+
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
         if self.damping and self.stiffness is None:
@@ -165,6 +168,7 @@ Efficiency = Annotated[OneNumber, Quantity("number")]
 class TransmissionLoss(ForceElement):
     """Dry friction at the coordinate that drives a coupling or a screw joint, loaded by the effort that it gives to the rest of it."""
 
+    locks: ClassVar[bool] = True
     outputs: ClassVar[tuple[str, ...]] = (
         *of_effort("effort on the coordinate"),
         Output("transmitted", "N|N m", "effort that the coordinate gives to the rest"),
@@ -267,18 +271,9 @@ def _refuse_another_loss(builder: SystemBuilder, force: TransmissionLoss) -> Non
         raise ModelError(Fault("", 0, 0, f"forces.{force.name}.coupling", message))
 
 
-def is_sticking(force: ForceElement) -> bool:
-    """Whether friction of the force can hold bodies at rest: its efforts are unknowns of the equations of motion."""
-    return (
-        (isinstance(force, Friction) and force.model == "stiction")
-        or (isinstance(force, Contact) and force.sticks)
-        or holds_by_capacity(force)
-    )
-
-
 def holds_by_capacity(force: ForceElement) -> bool:
     """Whether it is an element of a drive train that can hold coordinates at rest: a brake, a clutch, a rigid freewheel, a loss."""
-    return isinstance(force, Brake | Clutch | TransmissionLoss) or (isinstance(force, Freewheel) and force.is_rigid)
+    return force.locks or (isinstance(force, Freewheel) and force.is_rigid)
 
 
 KINDS = (

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import BeforeValidator
@@ -23,6 +23,7 @@ from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import NUMBER, evaluate_function, table_value
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import (
     CoordinateDamping,
@@ -42,9 +43,6 @@ from nivel.machine.units.formula import linear
 from nivel.machine.units.quantity import AngularVelocity, Quantity, listed
 from nivel.machine.uses.coordinate_reference import CoordinateReference, resolve
 from nivel.native.function import stage
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 Gear = Annotated[OneNumber, OfCoordinate(("turning per length", "number"), "positive")]
 Resistance = Annotated[OneNumber, Quantity("resistance"), NotNegative]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, is_angle, of_effort
@@ -15,6 +15,7 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.elements import friction
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import Contact, SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import (
     CoordinateDamping,
@@ -32,10 +33,6 @@ from nivel.machine.core.record import GROUND
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.quantity import PositiveLength
 from nivel.machine.uses.coordinate_reference import CoordinateReference, kind_of, resolve
-
-if TYPE_CHECKING:
-    from nivel.elements.contacts.contact import Contact
-    from nivel.system.builder import SystemBuilder
 
 
 class Friction(ForceElement):
@@ -87,6 +84,11 @@ class Friction(ForceElement):
     bearing_length: Maybe[PositiveLength] = Field(
         default=None, description="over which a bending moment M loads the bearing by 2 M / bearing_length"
     )
+
+    @property
+    def sticks(self) -> bool:
+        """Whether it can hold the joint at rest."""
+        return self.model == "stiction"
 
     @property
     def arm(self) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import BeforeValidator
@@ -18,15 +18,13 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
+from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import NotNegativeNumber
 from nivel.machine.core.element import ForceElement
 from nivel.machine.given import Field, OneNumber
 from nivel.machine.laws.time_function import OneFunction, ThreeFunctions, varying
 from nivel.machine.units.quantity import ANY, Quantity, listed
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 Varied = Annotated[OneFunction, varying(ANY)]
 Place = Annotated[OneFunction, varying("length")]

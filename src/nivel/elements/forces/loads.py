@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import BeforeValidator
@@ -19,6 +19,7 @@ from nivel.kernels.forces.wrench import add_marker_force, add_torque
 from nivel.kernels.record.function import COORDINATE, RATE, evaluate_function
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import SystemBuilder
 from nivel.machine.core.between import Between
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.element import ForceElement
@@ -26,9 +27,6 @@ from nivel.machine.core.record import GROUND, BodyName, Name
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.time_function import ForceComponent, SpringForce, ThreeFunctions, TorqueComponent
 from nivel.machine.units.quantity import Position, listed
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 Axes = Annotated[Literal["global", "body"], Field(description="axes of the vector: global, or turning with the body")]
 

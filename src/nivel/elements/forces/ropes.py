@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,7 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import SystemBuilder
 from nivel.lazy import dataclass
 from nivel.machine.core.between import BetweenMany
 from nivel.machine.core.checked import Problem, superfluous
@@ -30,9 +31,6 @@ from nivel.machine.core.marker import Marker
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Direction, Length, PositiveLength, Quantity, Velocity, listed
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 Array = NDArray[np.float64]
 MassPerLength = Annotated[OneNumber, Quantity("mass per length", positive=True)]

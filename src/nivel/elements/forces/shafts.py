@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from math import exp, pi
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
+from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import (
     CoordinateDamping,
@@ -41,9 +42,6 @@ from nivel.machine.given import Field, Maybe, OneNumber, TwoNumbers
 from nivel.machine.units.quantity import PositiveLength, Quantity, Scalar
 from nivel.machine.uses.coordinate_reference import CoordinateReference
 from nivel.native.function import leaf, stage
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 
 class DriveLine(ForceElement):

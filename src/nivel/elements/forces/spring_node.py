@@ -8,7 +8,7 @@ on the ends are those of the node held: its own motion adds nothing to them, as 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Literal
+from typing import Annotated, ClassVar, Final, Literal
 
 import numpy as np
 from pydantic import BeforeValidator
@@ -21,15 +21,13 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_marker_force
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
+from nivel.known import SystemBuilder
 from nivel.machine.core.between import BetweenMany
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import NotNegativeLength, Truth
 from nivel.machine.given import Field, ManyNumbers, OneNumber
 from nivel.machine.units.quantity import Position, Quantity, listed
 from nivel.native.function import leaf, stage
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 MOST_SPRINGS: Final = 8
 PositiveStiffness = Annotated[OneNumber, Quantity("stiffness", positive=True)]

@@ -12,7 +12,7 @@ damper are Maxwell's element (1867).
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Literal
+from typing import Annotated, ClassVar, Final, Literal
 
 import numpy as np
 from pydantic import BeforeValidator
@@ -27,15 +27,13 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import SystemBuilder
 from nivel.machine.core.between import Between
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Damping, NotNegativeLength, Stiffness, Truth
 from nivel.machine.given import Field, ManyNumbers, Maybe
 from nivel.machine.units.quantity import listed
 from nivel.native.function import stage
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 MOST_PARTS: Final = 6
 

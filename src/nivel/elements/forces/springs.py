@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import BeforeValidator
@@ -18,6 +18,7 @@ from nivel.kernels.record import function
 from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import SystemBuilder
 from nivel.machine.core import coefficient as of
 from nivel.machine.core.between import Between, BetweenMarkers
 from nivel.machine.core.checked import Checked, Problem, superfluous
@@ -27,9 +28,6 @@ from nivel.machine.laws.coordinate_function import CoordinateLaw
 from nivel.machine.laws.time_function import SpringForce, SpringTorque
 from nivel.machine.units.quantity import Angle, Position, listed
 from nivel.machine.uses.coordinate_reference import CoordinateReference
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
 
 ThreeStiffnesses = Annotated[ThreeNumbers[of.Stiffness], BeforeValidator(listed)]
 ThreeDampings = Annotated[ThreeNumbers[of.Damping], BeforeValidator(listed)]

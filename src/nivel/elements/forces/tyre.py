@@ -26,7 +26,7 @@ moments act besides, with the work that they do; the spin of a leaning wheel is 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import BeforeValidator
@@ -56,6 +56,7 @@ from nivel.kernels.record import function
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
+from nivel.known import MachineRecord, SystemBuilder
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import NotNegativeNumber, PositiveForce, PositiveNumber, Pressure
 from nivel.machine.core.element import Acts, ForceElement, Inequalities
@@ -65,10 +66,6 @@ from nivel.machine.given import Field, Maybe, OneNumber, OneRecord, TwoNumbers
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import PositiveLength, Quantity, listed
 from nivel.native.function import leaf
-
-if TYPE_CHECKING:
-    from nivel.machine.machine_record import MachineRecord
-    from nivel.system.builder import SystemBuilder
 
 PositiveStiffness = Annotated[OneNumber, Quantity("stiffness", positive=True)]
 PositiveDamping = Annotated[OneNumber, Quantity("damping", positive=True)]

@@ -9,9 +9,10 @@ from collections.abc import Iterator
 from functools import cached_property
 from itertools import combinations_with_replacement
 from math import pi
-from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Literal
+from typing import Annotated, ClassVar, Final, Literal
 
 from nivel.elements.output import is_angle
+from nivel.known import RowTable, SystemBuilder
 from nivel.lazy import dataclass
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import PositiveNumber, Truth
@@ -26,10 +27,6 @@ from nivel.machine.units.expression import Expression, expression_of
 from nivel.machine.units.quantity import Length, PositiveLength, Scalar
 from nivel.machine.units.tree import Call, ExpressionError, Lookup, Node, Number, Operation, Signal, parts
 from nivel.machine.uses.coordinate_reference import CoordinateReference, Kind
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
-    from nivel.system.joint_rows import RowTable
 
 Terms = tuple[tuple[str, float], ...]
 _TWO = Field(description="two joint coordinates, or joints that have only one")

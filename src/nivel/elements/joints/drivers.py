@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal
+from typing import Annotated, Any, ClassVar, Final, Literal
 
 import numpy as np
 from pydantic import BeforeValidator
@@ -12,6 +12,7 @@ from nivel.elements.joints.kind import AXES
 from nivel.elements.output import is_angle
 from nivel.errors import located
 from nivel.kernels.bodies.coordinate import ROTATION, TRANSLATION
+from nivel.known import RowTable, SystemBuilder
 from nivel.lazy import nivel
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import CoordinateRate, Truth
@@ -33,10 +34,6 @@ from nivel.machine.units.expression import Expression
 from nivel.machine.units.quantity import Direction, fault, listed
 from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import CoordinateReference, Kind, kind_of
-
-if TYPE_CHECKING:
-    from nivel.system.builder import SystemBuilder
-    from nivel.system.joint_rows import RowTable
 
 AngleMotion = Annotated[OneFunction, varying("angle", smooth=True)]
 ShareMotion = Annotated[OneFunction, varying("number", smooth=True)]

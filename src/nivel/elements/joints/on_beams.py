@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from nivel.elements.beams.beam import Beam
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
 from nivel.elements.joints.kind import Array, Combination, Composition, JointCoordinate, JointKind, Measured, TreeJoint
 from nivel.errors import Fault, ModelError, refuse
 from nivel.kernels.bodies.coordinate import ACROSS_Y, ACROSS_Z, ALONG, LEAN_X, LEAN_Y, TWIST
 from nivel.kernels.record import record as kernels
+from nivel.known import Beam
 from nivel.lazy import scipy
 from nivel.machine.core.checked import Problem
 

@@ -8,23 +8,19 @@ as many 2ᵖ - 1 times it.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 
-from nivel.elements.beams.beam import Beam
-from nivel.elements.beams.other_elements import changed, doubled
 from nivel.elements.joints import JOINTS
-from nivel.lazy import dataclass, scipy
+from nivel.known import Beam, Result
+from nivel.lazy import dataclass, nivel, scipy
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.estimate import Estimate
 from nivel.results.motion import common_frames
 from nivel.results.scales import Readable, machine_size
 from nivel.system.states.relative import bodies_of
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
 
 IN_A_STEP: Final = 30  # places between two states of a path at which the nearest one is looked for
 MARGIN: Final = 1.25  # by which estimates are larger than what follows from the distance
@@ -56,11 +52,11 @@ def other_elements(machine: MachineRecord, *, doubles: bool = False) -> Pair | N
     longer = shorter = False
     for beam in machine.beams:
         if doubles:
-            found.append(doubled(beam))
+            found.append(nivel.elements.beams.other_elements.doubled(beam))
             shorter = True
         else:
             stations = {name.partition(".")[2] for name in held if name.startswith(f"{beam.name}.")}
-            other, halves, divides = changed(beam, stations)
+            other, halves, divides = nivel.elements.beams.other_elements.changed(beam, stations)
             found.append(other)
             longer, shorter = longer or halves, shorter or divides
     given: dict[str, Any] = {name: getattr(machine, name) for name in type(machine).model_fields}

@@ -13,10 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.contacts.contact import Contact, Contacts
-from nivel.elements.contacts.heap import spheres_between
-from nivel.elements.contacts.shapes import Hull, hull_of, hull_of_points, part_of
-from nivel.lazy import dataclass, scipy
+from nivel.known import Contact, Contacts, Hull
+from nivel.lazy import dataclass, nivel, scipy
 from nivel.machine.bodies.shape import Capsule, Ellipsoid, Sphere
 from nivel.machine.bodies.solids import length
 from nivel.machine.bodies.touching import Touching
@@ -188,7 +186,7 @@ def spheres_of(machine: MachineRecord) -> list[Pair]:
 
 def spheres_among(machine: MachineRecord, force: Contacts, motions: Motions) -> list[Pair] | None:
     """The pairs of a heap that move so far between two frames that they may pass each other; None where these are too many to look at."""
-    names = spheres_between(machine, force)
+    names = nivel.elements.contacts.heap.spheres_between(machine, force)
     balls = [_ball(machine.touching[name]) for name in names]
     if len(motions.time) < 2:
         return []
@@ -213,11 +211,11 @@ def spheres_among(machine: MachineRecord, force: Contacts, motions: Motions) -> 
 
 def hulls_of(machine: MachineRecord) -> list[HullPair]:
     """The contacts of two bodies that are not two spheres."""
-    out, known = [], dict[tuple[str, int | None], Hull]()
+    out, known = [], dict[tuple[str, int | None], Any]()
     for force in machine.forces:
         if isinstance(force, Contact) and force.bodies is not None and not _are_spheres(machine, force):
             pair = [machine.touching[name] for name in force.bodies]
-            parts = [(pair[k].name, part_of(force, pair, k)) for k in range(2)]
+            parts = [(pair[k].name, nivel.elements.contacts.shapes.part_of(force, pair, k)) for k in range(2)]
             for body, part in zip(pair, parts, strict=True):
                 if part not in known:
                     known[part] = _hull(body, part[1])
@@ -242,7 +240,9 @@ def _hull(body: Touching, part: int | None) -> Hull:
     """The hull of a solid, or a polyhedron inside a round shape, in the frame of the body."""
     found = _hull_of_shape(body, part)
     faces = np.column_stack([found.faces[:, :3] @ body.axes.T, found.faces[:, 3]])
-    return Hull(body.position + body.axes @ found.middle, found.corners @ body.axes.T, faces, found.edges)
+    return nivel.elements.contacts.shapes.Hull(
+        body.position + body.axes @ found.middle, found.corners @ body.axes.T, faces, found.edges
+    )
 
 
 def _hull_of_shape(body: Touching, part: int | None) -> Hull:
@@ -256,8 +256,8 @@ def _hull_of_shape(body: Touching, part: int | None) -> Hull:
             ends[:, 0, "xyz".index(shape.along or "x")] = 0.5 * length(shape), -0.5 * length(shape)
             points = (ends + shape.radius * _directions()).reshape(-1, 3)
         case _:
-            return hull_of(body, part)
-    return hull_of_points(points + np.array(shape.centre or (0.0, 0.0, 0.0)))
+            return nivel.elements.contacts.shapes.hull_of(body, part)
+    return nivel.elements.contacts.shapes.hull_of_points(points + np.array(shape.centre or (0.0, 0.0, 0.0)))
 
 
 def _directions() -> Array:

@@ -9,15 +9,10 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.redundancy import Redundancy
 from nivel.analysis.curves.corners import corners_of
 from nivel.analysis.plan.combinations import screws_as_couplings
-from nivel.elements.contacts.contact import Contact, Contacts
-from nivel.elements.control.held import Delay
-from nivel.elements.forces.actuators import Stop
-from nivel.elements.forces.drive_lines import TransmissionLoss, holds_by_capacity, is_sticking
-from nivel.elements.forces.friction import Friction
-from nivel.elements.joints.drivers import RATES
 from nivel.errors import Fault
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.lazy import dataclass
+from nivel.known import Contact, Contacts, Delay, Friction, Stop, TransmissionLoss
+from nivel.lazy import dataclass, nivel
 from nivel.machine.core.element import ForceElement
 from nivel.machine.laws.functions import functions_in
 from nivel.machine.laws.python_law import PythonLaw
@@ -139,7 +134,8 @@ def unsettled_multipliers(machine: MachineRecord, constraints: int) -> Iterator[
 def stiction_over_steps(machine: MachineRecord) -> Iterator[Fault]:
     """Stiction is a law of the acceleration at a time, of which a balance over a whole step knows nothing."""
     integrator = machine.simulation.integrator
-    for force in filter(is_sticking, machine.forces if INTEGRATORS[integrator].needs == "whole steps" else ()):
+    at_once = INTEGRATORS[integrator].needs == "whole steps"
+    for force in (force for force in machine.forces if at_once and force.sticks):
         key = _key_of_model(force)
         instead = {"model": "`model: lugre`", "type": "leave it out"}.get(key, "`friction_model: coulomb`")
         yield Fault.at(
@@ -151,7 +147,7 @@ def stiction_over_steps(machine: MachineRecord) -> Iterator[Fault]:
 
 def _key_of_model(force: ForceElement) -> str:
     """Where a force says how its friction goes."""
-    return "model" if isinstance(force, Friction) else "type" if holds_by_capacity(force) else "friction_model"
+    return "model" if isinstance(force, Friction) else "friction_model" if isinstance(force, Contact) else "type"
 
 
 def conserved_drivers(machine: MachineRecord) -> Iterator[Fault]:
@@ -193,7 +189,7 @@ def _motions(machine: MachineRecord) -> Iterator[tuple[str, Expression | Table |
     """The functions by which drivers move a machine, each with its place in the file: `drivers.lift.value`, or the list where it stands."""
     for driver in machine.drivers:
         for place, function in functions_in(driver):
-            if place not in RATES:
+            if place not in nivel.elements.joints.drivers.RATES:
                 key = place if place == "value" else place.rpartition(".")[0] or place
                 yield f"drivers.{driver.name}.{key}", function
 
@@ -264,7 +260,7 @@ def shared_mass(machine: MachineRecord, formulation: str, coordinates: str) -> I
         if isinstance(force, Friction) and not INTEGRATORS[integrator].residual:
             message = f"friction under `integrator: {integrator}` {why.format('generalised-alpha')}"
             yield Fault.at(f"forces.{force.name}", message)
-        elif is_sticking(force):
+        elif force.sticks:
             message = f"'stiction' {why.format('lugre or coulomb' if isinstance(force, Friction) else 'coulomb')}"
             yield Fault.at(f"forces.{force.name}.{_key_of_model(force)}", message)
 

@@ -10,9 +10,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.contacts.contact import Contact
 from nivel.errors import ModelError
 from nivel.judge.finding import Finding
+from nivel.known import Contact
 from nivel.lazy import nivel
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import mass_of, mass_properties

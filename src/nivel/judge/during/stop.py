@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations
-from nivel.elements.beams.beam import Beam
 from nivel.kernels.core import status as of_kernels
 from nivel.kernels.record.record import Record
+from nivel.known import Beam
 from nivel.lazy import dataclass
 from nivel.system.layout import reported
 from nivel.system.system import Array, System

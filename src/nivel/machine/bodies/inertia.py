@@ -7,21 +7,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any, Final
+from typing import Annotated, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, ValidationInfo
 
+from nivel.known import Body
 from nivel.lazy import dataclass
 from nivel.machine.bodies.solids import centroid, squared_gyration, volume
 from nivel.machine.core.record import Record
 from nivel.machine.given import Field, Given, SomeNumbers, SomeRows
 from nivel.machine.units.quantity import InertiaComponent, fault, listed, parameters_of, read_quantity, reported, shown
 from nivel.machine.units.tree import ExpressionError, FaultyParameterError
-
-if TYPE_CHECKING:
-    from nivel.machine.bodies.body import Body
 
 Array = NDArray[np.float64]
 

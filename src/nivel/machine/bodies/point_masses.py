@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 
 from nivel.elements.forces import FORCES
-from nivel.elements.forces.loads import PointForce
 from nivel.elements.joints import JOINTS
+from nivel.known import MachineRecord, PointForce
 from nivel.machine.core.between import Between, BetweenMany
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.index import Index, Place, as_list, elements
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.record import entry
-
-if TYPE_CHECKING:
-    from nivel.machine.machine_record import MachineRecord
 
 Faults = Iterator[tuple[Place, str]]
 Triple = tuple[float, float, float]

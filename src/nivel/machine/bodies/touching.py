@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.known import Body, Marker, Shape
 from nivel.lazy import dataclass, field
 from nivel.machine.core.placement import marker_frame
 
-if TYPE_CHECKING:
-    from nivel.machine.bodies.body import Body
-    from nivel.machine.bodies.shape import Shape
-    from nivel.machine.core.marker import Marker
-
 Array = NDArray[np.float64]
+HULLS: Final = ("box", "cylinder", "extrusion", "mesh")  # that touch each other, with their convex hulls
+ROUND: Final = ("sphere", "capsule", "ellipsoid")  # that touch everything at the nearest points
+SHAPES_ON_PLANE: Final = (*ROUND, *HULLS)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final
 
 from pydantic import BeforeValidator, WithJsonSchema
 
-from nivel.machine.control.part import VALUE, Part, PartFunction
+from nivel.known import PartFunction
+from nivel.machine.control.part import VALUE, Part
 from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import NotNegative
 from nivel.machine.core.record import Name, entry

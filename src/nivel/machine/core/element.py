@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Final, NamedTuple
 
+from nivel.known import MachineRecord
 from nivel.machine.core.checked import Checked
 from nivel.machine.core.record import Name
 from nivel.machine.given import POWER, Usual
-
-if TYPE_CHECKING:
-    from nivel.machine.machine_record import MachineRecord
 
 OUTPUTS: Final = ("magnitude", "power")
 # of an element and its numbers over time (`nivel.judge.after.checks.states`): an array over time
@@ -57,12 +55,14 @@ Inequalities = tuple[Acts | Holds, ...]
 class ForceElement(Checked):
     """A named element that loads bodies.
 
-    outputs : what a sensor can read of it. turns : it may turn a body, which a point mass cannot be. stiff : it may be stiff, that is, do
-    much work in a short time. usual : what its outputs are between. inequalities : that its state obeys at all times.
+    outputs : what a sensor can read of it. locks : it holds with what is wanted, up to its capacity. turns : it may turn a body, which a
+    point mass cannot be. stiff : it may be stiff, that is, do much work in a short time. usual : what its outputs are between.
+    inequalities : that its state obeys at all times.
     """
 
     collection: ClassVar[str] = "forces"
     outputs: ClassVar[tuple[str, ...]] = OUTPUTS
+    locks: ClassVar[bool] = False
     turns: ClassVar[bool] = False
     stiff: ClassVar[bool] = True
     usual: ClassVar[Mapping[str, Usual]] = {"power": POWER}
@@ -71,6 +71,11 @@ class ForceElement(Checked):
     name: Name
     if TYPE_CHECKING:  # the word of every kind
         type: Any
+
+    @property
+    def sticks(self) -> bool:
+        """Whether friction of it can hold bodies at rest: its efforts are unknowns of the equations of motion."""
+        return self.locks
 
     def remarks(self, machine: MachineRecord) -> Iterator[tuple[str, str]]:
         """Key and text of what is right by itself in it, and may be a slip."""

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from nivel.known import Body, Marker
 from nivel.machine.bodies.shape import Standing
 from nivel.machine.core import orientation
 from nivel.machine.core.vectors import cross
-
-if TYPE_CHECKING:
-    from nivel.machine.bodies.body import Body
-    from nivel.machine.core.marker import Marker
 
 Array = NDArray[np.float64]
 

@@ -7,13 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from nivel.elements.joints.drivers import RATES, Driver
-from nivel.lazy import dataclass
-from nivel.machine.control.block import Block
+from nivel.known import Block, Driver, State
+from nivel.lazy import dataclass, nivel
 from nivel.machine.core.record import Record
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
-from nivel.machine.signals.state import State
 from nivel.machine.units.expression import Expression
 
 AXES = "xyz"
@@ -58,7 +56,7 @@ def _of_part(section: str, part: Record) -> Iterator[MachineFunction]:
     name = str(getattr(part, "name", None) or section)
     sampling = Sampling(part.every or 0.0) if isinstance(part, State) and part.update is not None else None
     for place, function in functions_in(part):
-        moves = isinstance(part, Driver) and place not in RATES
+        moves = isinstance(part, Driver) and place not in nivel.elements.joints.drivers.RATES
         yield MachineFunction(f"{name}.{place}", section, name, function, moves, sampling)
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import ast
 import warnings
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, Final
 
 from pydantic import ValidationError
 from pydantic_core import InitErrorDetails
 
-from nivel.lazy import dataclass
 from nivel.machine.core.record import unknown_word
 from nivel.machine.laws.python_source import source_of
 from nivel.machine.units import quantity

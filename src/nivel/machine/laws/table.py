@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final
 
@@ -11,7 +12,6 @@ import numpy as np
 from pydantic import ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from nivel.lazy import dataclass
 from nivel.machine.core.record import unknown_word
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.interpolation import (

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 
-from nivel.lazy import dataclass
 from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, evaluate, render
 from nivel.machine.units.derivative import derivative
 from nivel.machine.units.quantity import bound_tree

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
+from nivel.known import MachineRecord
 from nivel.machine.core.checked import Place, Problem
 from nivel.machine.core.marker import Marker
-
-if TYPE_CHECKING:
-    from nivel.machine.machine_record import MachineRecord
 
 
 def problems_of_interfaces(machine: MachineRecord) -> Iterator[Problem]:

@@ -6,10 +6,10 @@ from collections.abc import Collection, Iterator, Mapping
 from contextlib import suppress
 from typing import Any, Final
 
-from nivel.elements.contacts.contact import HULLS, ROUND, SHAPES_ON_PLANE, Contact, Contacts
 from nivel.elements.joints import JOINTS
 from nivel.lazy import nivel
 from nivel.machine.bodies.point_masses import point_mass_faults
+from nivel.machine.bodies.touching import HULLS, ROUND, SHAPES_ON_PLANE
 from nivel.machine.core.index import SECTIONS, Index, Place, as_list, elements
 from nivel.machine.core.record import GROUND, Record, entry, unknown_word
 from nivel.machine.laws.symbols import UnknownSymbolError, find_in, outputs_of, paths_in, states_of, symbol_faults
@@ -140,10 +140,10 @@ def _of_curve(coupling: Any, index: Index, parameters: Parameters, place: Place)
 
 
 def _of_force(force: Any, index: Index, place: Place) -> Faults:
-    if entry(force, "type") == Contact.model_fields["type"].default:
+    if entry(force, "type") == "contact":
         yield from _of_contact(force, index, place)
         return
-    if entry(force, "type") == Contacts.model_fields["type"].default:
+    if entry(force, "type") == "contacts":
         for at, name in enumerate(as_list(entry(force, "between"))):
             yield from _of_shape(name, index, ("sphere",), (*place, "between", at))
         for at, plane in enumerate(as_list(entry(force, "planes"))):

@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,15 +14,12 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.extras import needed
 from nivel.files.target import write_text
+from nivel.known import Inline, Result
 from nivel.lazy import dataclass, field, nivel, provided, scipy, xarray
 from nivel.machine.core.vectors import Array
 from nivel.results.analyses.sampled_model import SampledModel, participation, taking_part
 from nivel.results.frames.tabulated import Column, Rows, Tabulated, chosen
 from nivel.results.trust import Trust
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
-    from nivel.view.page import Inline
 
 Complex = NDArray[np.complex128]
 ROUND_OFF: Final = 1e-11  # share of an eigenvalue below which its real part is nothing, however well it is known

@@ -6,23 +6,20 @@ import json
 from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 
 from nivel.elements.joints import drawn
 from nivel.errors import Fault, ModelError
 from nivel.files.target import write_text
+from nivel.known import MachineRecord, Result
 from nivel.lazy import dataclass, field, provided, xarray
 from nivel.machine.core.vectors import Array
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.uses.coordinate_reference import unknown_name
 from nivel.results.motion import rotation_matrices
 from nivel.results.trust import Trust
-
-if TYPE_CHECKING:
-    from nivel.machine.machine_record import MachineRecord
-    from nivel.results.result import Result
 
 GROUND: Final = "ground"
 # a point that moves slower than this share of its largest speed stands still: a cusp, or a dwell

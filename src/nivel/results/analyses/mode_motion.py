@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from nivel.errors import ModelError
 from nivel.integrate.loop.sink import Header
+from nivel.known import LinearModel
 from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
 from nivel.results.frames.contents import MemoryContents
 from nivel.results.result import Result
 from nivel.system.layout import Entry, laid_out
-
-if TYPE_CHECKING:
-    from nivel.results.analyses.linear_model import LinearModel
 
 FRAMES, CYCLES = 121, 3  # of the motion
 PERIOD = 1.0  # s, whatever the frequency

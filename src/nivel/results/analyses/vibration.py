@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from nivel.errors import Fault, ModelError, refuse
 from nivel.files.csv_tables import CsvError, numeric_columns
 from nivel.files.measured_file import KINDS
 from nivel.files.sources import read_bytes, read_text
+from nivel.known import LinearModel, Result
 from nivel.lazy import dataclass, scipy, xarray
 from nivel.machine.core.vectors import Array
 from nivel.machine.study.any_quantity import another_measure
@@ -25,10 +26,6 @@ from nivel.machine.units.quantity import ANY, read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.curve import Curve, curve_of
 from nivel.words.wording import shown, unknown_word
-
-if TYPE_CHECKING:
-    from nivel.results.analyses.linear_model import LinearModel
-    from nivel.results.result import Result
 
 Spectra = Mapping[str, Any] | str | PathLike[str]
 FREQUENCY: Final = "frequency"

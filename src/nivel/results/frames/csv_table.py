@@ -10,19 +10,16 @@ from collections.abc import Iterable, Iterator
 from fnmatch import fnmatchcase
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import Any, TextIO
 
 import numpy as np
 
 from nivel.errors import Fault, refuse
 from nivel.extras import needed
 from nivel.files.target import keep_sources, written
+from nivel.known import Result
 from nivel.lazy import pyarrow, scipy
 from nivel.results.frames.contents import unknown_name
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
-
 
 BLOCK = 4096  # frames turned into text at once
 

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from nivel.errors import Fault, ModelError
 from nivel.flexible.body.recovery import Cycle, rainflow
+from nivel.known import Result
 from nivel.lazy import xarray
 from nivel.machine.units.quantity import expression_fault, read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.curve import TOLD, Curve, curve, curve_of, probed
 from nivel.results.reductions import Number, integral, integral_of_magnitude, largest, mean, peak, turning_values
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
 
 
 def reactions(result: Result) -> xarray.Dataset:

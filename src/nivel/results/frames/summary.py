@@ -5,16 +5,13 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from html import escape
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from nivel.known import Result
 from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
-
-if TYPE_CHECKING:
-    from nivel.results.result import Result
-
 
 COLOURS = {"green": "#1a7f4b", "amber": "#b26a00", "red": "#c0362c"}
 

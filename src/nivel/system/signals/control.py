@@ -7,8 +7,9 @@ from nivel.errors import located
 from nivel.kernels.record.function import OUTPUT, STATE
 from nivel.kernels.record.record import NONE
 from nivel.kernels.signals.functions import compute, rate_states
+from nivel.known import PartOf
 from nivel.lazy import dataclass, field
-from nivel.machine.control.order import PartOf, in_order, parts_of
+from nivel.machine.control.order import in_order, parts_of
 from nivel.machine.control.part import VALUE
 from nivel.machine.laws.symbols import find_in, follows_control, is_output
 from nivel.system.builder import SystemBuilder

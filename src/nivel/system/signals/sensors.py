@@ -6,7 +6,7 @@ from nivel.errors import Fault, ModelError, located
 from nivel.kernels.bodies.coordinate import DISTANCE, LAST_ANGLE, ROTATION
 from nivel.kernels.record.record import NONE
 from nivel.kernels.signals import sensor as kernel
-from nivel.machine.signals.sensor import Sensor
+from nivel.known import Sensor
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.system.builder import SystemBuilder
 

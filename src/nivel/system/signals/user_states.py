@@ -11,7 +11,7 @@ from nivel.elements.states import StateFact
 from nivel.errors import located
 from nivel.kernels.record.record import NONE, Sampled
 from nivel.kernels.signals.functions import rate_states
-from nivel.machine.signals.state import State
+from nivel.known import State
 from nivel.system.builder import SystemBuilder
 from nivel.system.signals.control import ONCE, SampleTable, add_samples
 from nivel.system.tables import index_array

@@ -9,8 +9,6 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.forces.drive_lines import TransmissionLoss
-from nivel.elements.forces.friction import Friction
 from nivel.elements.joints.joint import Joint
 from nivel.elements.joints.on_beams import OnBeam
 from nivel.kernels.bodies.coordinate import ALONG
@@ -18,6 +16,7 @@ from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import COMPLETE, NONE, Bodies, Constraints, Frames, Hooks, Markers, Record, Saddle
 from nivel.kernels.record.record import Friction as FrictionTables
 from nivel.kernels.tree import tree_outputs
+from nivel.known import Friction, TransmissionLoss
 from nivel.machine.bodies.inertia import mass_of
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
@@ -105,7 +104,8 @@ def in_tree(
     blocks, path_tables = _blocks(nodes, paths, positions)
     angles = turns(old.coordinates, nodes, start.q)
     active = _active(old, nodes)
-    in_use = _markers_in_use(old, nodes, np.union1d(active, angles.followed))
+    measured = index_array(sorted({*active.tolist(), *angles.followed.tolist()}), 1)
+    in_use = _markers_in_use(old, nodes, measured)
     sliders = [n for n, node in enumerate(nodes) if node.along >= 0]
     own_motions = motions(nodes)
     address = np.array([*old.hooks.address, *(motion.address for motion in own_motions)], dtype=np.uint64)
@@ -130,9 +130,7 @@ def in_tree(
             size=np.array([absolute.size]),
             rows=_chosen(old, ~left)[0],
             marker=in_use,
-            turning=np.isin(in_use, _with_axes(old, constraints, np.union1d(active, angles.followed))).astype(
-                np.uint32
-            ),
+            turning=np.isin(in_use, _with_axes(old, constraints, measured)).astype(np.uint32),
             slider=index_array([(n, nodes[n].along) for n in sliders], 2),
             slider_of=index_array([sliders.index(n) if n in sliders else NONE for n in range(len(nodes))], 1),
             counted=angles.counted,
@@ -320,7 +318,7 @@ def _active(old: Record, nodes: list[Node]) -> Index:
     """Coordinates that every evaluation needs: not those that only rows of sliders are made of which carry bodies."""
     what = old.coordinates.what[old.coordinates.active]
     sliders = [node.far for node in nodes if node.along >= 0]
-    return old.coordinates.active[~((what[:, 0] > ALONG) & np.isin(what[:, 1], sliders))]
+    return old.coordinates.active[~((what[:, 0] > ALONG) & np.isin(what[:, 1], np.array(sliders, dtype=np.int64)))]
 
 
 def _markers_in_use(old: Record, nodes: list[Node], measured_there: Index) -> Index:

@@ -10,11 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.circuits.ways import CENTRED
 from nivel.judge.after.checks.energy import BALANCE
 from nivel.judge.after.report import FRAMES, Check, Need
 from nivel.judge.after.subject import Motion, Run
-from nivel.lazy import dataclass
+from nivel.lazy import dataclass, nivel
 from nivel.results.scales import Readable
 from nivel.results.trust import Item, Threshold, number, quantity
 
@@ -223,7 +222,9 @@ def _components(result: Readable) -> list[dict[str, Any]]:
 def _saturated(result: Readable) -> Iterator[Saturation]:
     for valve in _components(result):
         name, kind = valve["name"], valve["type"]
-        centred = kind == "section" or (kind == "directional-valve" and valve["ways"] in CENTRED)
+        centred = kind == "section" or (
+            kind == "directional-valve" and valve["ways"] in nivel.elements.circuits.ways.CENTRED
+        )
         if not centred and kind != "relief-valve":
             continue
         position = _history(result, f"{START}{name}.position")[1:]

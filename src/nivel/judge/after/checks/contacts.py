@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.judge.after.report import FRAMES, STEPS, Check
 from nivel.judge.after.subject import Equilibria, Motion, Run
 from nivel.judge.after.touching_pairs import Passed
+from nivel.known import Contact, Contacts
 from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
 from nivel.results.scales import Readable, machine_size

@@ -11,10 +11,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.polynomial import polynomial
 
-from nivel.elements.joints.drivers import Driver
 from nivel.judge.after.checks.joints import OPENING
 from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Actuated, Positions, Scales
+from nivel.known import Driver
 from nivel.lazy import dataclass
 from nivel.machine.laws.table import Table
 from nivel.machine.units.expression import Expression

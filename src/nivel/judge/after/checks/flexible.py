@@ -9,7 +9,6 @@ the body bends.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from nivel.judge.after.checks.modes import ENERGY_LEFT_OUT, NEAR_LEFT, STRAIGHT,
 from nivel.judge.after.flexible_bodies import Bent, ModalBody, modal_bodies
 from nivel.judge.after.report import FRAMES, STEPS, Check
 from nivel.judge.after.subject import Equilibria, Run
+from nivel.known import Invariants
 from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
@@ -25,9 +25,6 @@ from nivel.machine.units.tree import TIME
 from nivel.results.scales import Readable, blocks
 from nivel.results.trust import Item, Threshold, number
 from nivel.system.flexible import bending_bodies
-
-if TYPE_CHECKING:
-    from nivel.flexible.body.invariants import Invariants
 
 MOST_FRAMES = 500  # that bending is looked at in, at most
 STIFFENING = Threshold(

@@ -9,11 +9,10 @@ from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.freedoms import coordinate_derivatives
-from nivel.elements.contacts.contact import Contact
-from nivel.elements.forces.friction import Friction
 from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Run
 from nivel.kernels.elements import friction as columns
+from nivel.known import Contact, Friction
 from nivel.lazy import dataclass, scipy
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import resolve

@@ -8,7 +8,7 @@ body itself.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 
@@ -18,18 +18,13 @@ from nivel.judge.after.checks.beams import MESH
 from nivel.judge.after.flexible_bodies import Bent, ModalBody, numbered_bodies
 from nivel.judge.after.report import FRAMES, STEPS, Check, Need
 from nivel.judge.after.subject import Equilibria, Run
-from nivel.lazy import dataclass, replace
+from nivel.known import Interface, Invariants, LeftOut, MeshError, Prepared
+from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, rotated
 from nivel.results.trust import Item, Threshold, number
-from nivel.system.beam_nodes import with_nodes
 from nivel.system.joint_frames import joint_frames
-
-if TYPE_CHECKING:
-    from nivel.analysis.preparation.preparation import Prepared
-    from nivel.flexible.body.body import Interface, LeftOut, MeshError
-    from nivel.flexible.body.invariants import Invariants
 
 BACK = np.array([1.0, -1.0, -1.0, -1.0])  # on Euler parameters: from global axes to those of a body
 MOST_FRAMES = 4000  # that are looked at, at most
@@ -173,7 +168,7 @@ def _nearest(interfaces: tuple[Interface, ...] | list[Interface], place: Array) 
 
 def _held(whole: MachineRecord, body: ModalBody, interfaces: list[Interface]) -> Iterator[Held]:
     """The joints at these interfaces whose reactions on the body are known."""
-    machine = with_nodes(whole)
+    machine = nivel.system.beam_nodes.with_nodes(whole)
     for joint in whole.joints:
         if any(beam.name in (joint.bodies or ()) for beam in machine.beams):
             continue  # it slides along the beam

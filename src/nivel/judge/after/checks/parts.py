@@ -8,14 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from nivel.elements.contacts.contact import Contacts
 from nivel.judge.after.checks.energy import BALANCE
 from nivel.judge.after.checks.modes import BACK
 from nivel.judge.after.report import ESTIMATE, STEPS, Check
 from nivel.judge.after.subject import Run
-from nivel.lazy import dataclass
+from nivel.known import Contacts
+from nivel.lazy import dataclass, is_dataclass
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.bodies.shape import Sphere
+from nivel.machine.core.record import Record
 from nivel.machine.core.vectors import Array, cross
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, largest_mechanical_energy, rotated, speed_of_rest
@@ -196,7 +197,7 @@ def _bodies_of(machine: MachineRecord, name: str, words: Mapping[str, set[str]])
 def _words(element: Any) -> set[str]:
     """All words in the texts of an element."""
     found: set[str] = set()
-    left: list[Any] = [element.model_dump(mode="python", exclude_none=True)]
+    left: list[Any] = [element]
     while left:
         each = left.pop()
         if isinstance(each, str):
@@ -205,6 +206,8 @@ def _words(element: Any) -> set[str]:
             left += each.values()
         elif isinstance(each, list | tuple | set):
             left += each
+        elif isinstance(each, Record) or is_dataclass(each):
+            left += vars(each).values()
     return found
 
 

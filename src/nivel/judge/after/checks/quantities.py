@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from nivel.elements.contacts.contact import Contact
 from nivel.judge.after.checks import friction
 from nivel.judge.after.flexible_bodies import MODAL, ModalBody, modal_bodies, point_ranges
 from nivel.judge.after.report import ESTIMATE, Check
 from nivel.judge.after.subject import Run
+from nivel.known import Contact
 from nivel.lazy import dataclass, replace
 from nivel.machine.core.vectors import Array
 from nivel.machine.units.dimension import KINDS

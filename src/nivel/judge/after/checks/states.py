@@ -13,12 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.contacts import heights
-from nivel.elements.contacts.contact import Contact
-from nivel.elements.contacts.heights import rows_over_heights
 from nivel.judge.after.report import FRAMES, Check, Need
 from nivel.judge.after.subject import Run
-from nivel.lazy import dataclass, replace
+from nivel.known import Contact
+from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.core.element import Acts, Holds
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
@@ -26,6 +24,7 @@ from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, reso
 from nivel.results.motion import peak
 from nivel.results.result import Result
 from nivel.results.trust import Item, number
+from nivel.system.tables import OVER_HEIGHTS, rows_of
 
 SHOWN = 5  # elements of which each has a line
 # An overlap or an effort below this share of its largest value is none, and an overlap below this share of the size of the machine.
@@ -186,7 +185,10 @@ def passed_over(run: Run) -> Iterator[Contradiction]:
     """Contacts with ground that has heights, into which steps of fixed size go deeper than at any of their ends."""
     elements = run.prepared.motion.system.record.elements
     names = [force.name for force in run.machine.forces if isinstance(force, Contact) and force.heights is not None]
-    first, last = rows_over_heights(elements)
+    if not names:
+        return
+    heights = nivel.elements.contacts.heights
+    first, last = rows_of(elements, OVER_HEIGHTS)
     for name, numbers in zip(names, elements.number[first:last], strict=True):
         missed, seen = float(numbers[heights.MISSED]), max(float(numbers[heights.SEEN]), 0.0)
         if missed > DEEPER * seen + PLACE * run.scales.size:

@@ -201,6 +201,7 @@ import nivel.native.shipped
 import nivel.native.store
 import nivel.native.workers
 import nivel.report
+import nivel.report.handling_page
 import nivel.report.reduction_page
 import nivel.report.study_page
 import nivel.results

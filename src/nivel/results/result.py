@@ -290,7 +290,7 @@ class Result(Tabulated):
     @checked_arguments
     def mode(self, number: int, frame: int = -1) -> Result:
         """Vibration `number` (from 1) about an equilibrium of a statics run as a motion of its own, slow and large enough to be seen."""
-        return nivel.results.analyses.mode_motion.mode_motion(self, number, frame)
+        return Result(nivel.results.analyses.mode_motion.mode_motion(self, number, frame))
 
     @checked_arguments
     def report(self, path: str | os.PathLike[str]) -> Path:

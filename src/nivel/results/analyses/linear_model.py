@@ -288,7 +288,7 @@ class LinearModel(Tabulated):
 
         Raises ModelError where there is no such mode.
         """
-        return nivel.results.analyses.mode_motion.linear_motion(self, number)
+        return nivel.results.result.Result(nivel.results.analyses.mode_motion.linear_motion(self, number))
 
     def summary(self) -> dict[str, Any]:
         """Numbers and words for programs."""

@@ -8,11 +8,10 @@ import numpy as np
 
 from nivel.errors import ModelError
 from nivel.integrate.loop.sink import Header
-from nivel.known import LinearModel
+from nivel.known import LinearModel, Result
 from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
 from nivel.results.frames.contents import MemoryContents
-from nivel.results.result import Result
 from nivel.system.layout import Entry, laid_out
 
 FRAMES, CYCLES = 121, 3  # of the motion
@@ -21,7 +20,7 @@ PERIOD = 1.0  # s, whatever the frequency
 SHOWN, TURNED = 0.08, 0.5
 
 
-def mode_motion(result: Result, number: int, frame: int = -1) -> Result:
+def mode_motion(result: Result, number: int, frame: int = -1) -> MemoryContents:
     """Vibration `number` (from 1) about the state `frame`, with a period of a second and amplitudes that can be seen.
 
     Raises ModelError where the result has no such vibration.
@@ -53,12 +52,12 @@ def _motion(
     attributes: dict[str, str | float | int],
     time: Array,
     blocks: list[Array],
-) -> Result:
-    """A result with these variables, of `names` along their dimensions, whose numbers are blocks (FRAMES, ·)."""
+) -> MemoryContents:
+    """The contents of a result with these variables, of `names` along their dimensions, whose numbers are blocks (FRAMES, ·)."""
     wanted = {dim for _, dims, *_ in entries for dim in dims[1:]}
     layout = laid_out(entries, {dim: each for dim, each in names.items() if dim in wanted})
     header = Header(layout, attributes)
-    return Result(MemoryContents(header, np.hstack([time[:, None], *blocks]), header.attributes))
+    return MemoryContents(header, np.hstack([time[:, None], *blocks]), header.attributes)
 
 
 def _equilibrium(result: Result, frame: int) -> tuple[Array, Array, Array | None]:
@@ -121,7 +120,7 @@ class Posed:
     attributes: dict[str, str | float | int]
 
 
-def linear_motion(model: LinearModel, number: int) -> Result:
+def linear_motion(model: LinearModel, number: int) -> MemoryContents:
     """Mode `number` (from 1) of the model: vibrations with a period of a second and their own phases, others rising and falling.
 
     Raises ModelError where there is no such mode, or where nothing is seen of it.

@@ -459,7 +459,7 @@ def test_the_command_says_what_it_wrote_and_what_is_wrong(tmp_path, monkeypatch)
     assert "exists already; use --force" in again.output
     for words, said in (
         (["--fmu", "--csv"], "is written at a time"),
-        (["--csv", "--fmi", "3"], "belong to --fmu"),
+        (["--csv", "--fmi", "3"], "--fmi belongs to --fmu"),
         (["--fmu", "a.fmu", "--set", "simulation.integrator=dopri5"], "an FMU takes steps of one length"),
         (["--fmu", "a.fmu", "--select", "sensor.hight"], "sensor.height"),
     ):

@@ -126,7 +126,8 @@ def test_packed_arrays_are_read_back_bit_by_bit(small, times, indices):
     block = Block()
     places = [block.add(small, "f4"), block.add(times, "f8"), block.add(indices, "u4")]
     head, content = from_bytes(to_bytes(Package(PROTOCOL, "playback", []), block))
-    assert head == {"protocol": PROTOCOL, "mode": "playback", "stages": [], "controls": [], "gauges": [], "traced": []}
+    empty: dict[str, list[object]] = {key: [] for key in ("stages", "controls", "gauges", "traced", "parameters")}
+    assert head == {"protocol": PROTOCOL, "mode": "playback", **empty}
     for place, values in zip(places, (small, times, indices), strict=True):
         assert place.start % 8 == 0
         again = unpacked({"kind": place.kind, "shape": place.shape, "start": place.start}, content)

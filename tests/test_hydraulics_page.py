@@ -17,7 +17,7 @@ from nivel.elements.circuits.actuators import Cushion
 from nivel.elements.circuits.composed import CHECK_OPENS_AT, CHECK_RANGE
 from nivel.elements.circuits.edges import Edge
 from nivel.elements.circuits.fluids import GRADES, Fluid, Gas
-from nivel.elements.circuits.lines import CRITICAL, RESISTANCE, loss
+from nivel.elements.circuits.line_friction import CRITICAL, RESISTANCE, loss
 from nivel.elements.circuits.nitrogen import gas_state
 from nivel.elements.circuits.pistons import (
     COULOMB,

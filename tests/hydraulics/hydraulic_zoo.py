@@ -98,11 +98,17 @@ def machine_with_circuits(command="0.3 + 0.5*rail.displacement + 1e-9*line.press
                     "type": "section", "compensation": "post", "command": 0.4, "inner_volume": "20 cm^3", "margin": "2 bar",
                     "ports": {"P": "supply", "T": "tank", "A": "line", "B": "swing.B", "LS": "ls"}, **RATED,
                 },
+                "float": {
+                    "type": "section", "open_centre": "parallel", "command": -0.9, "inner_volume": "20 cm^3", "float_from": 0.85,
+                    "ports": {"P": "supply", "N": "supply", "C": "line", "T": "tank", "A": "line", "B": "swing.B"},
+                    "regeneration": "B", "holding": "A", "flow": "20 L/min", "pressure_drop": "100 bar",
+                },
                 "hold": {
                     "type": "counterbalance-valve", "ports": {"L": "mast.A", "V": "line", "X": "supply"},
                     "opens_at": "180 bar", **RATED,
                 },
                 "leak": {"type": "orifice", "ports": {"A": "swing.B", "B": "tank"}, "diameter": "2 mm", "opening": "0.5 + time"},
+                "waves": {"type": "line", "model": "delay", "ports": {"A": "line", "B": "tank"}, "diameter": "8 mm", "length": 30},
                 "pipe": {"type": "pipe", "ports": {"A": "line", "B": "tank"}, "diameter": "8 mm", "length": 3},
                 "hose": {"type": "pipe", "ports": {"A": "supply", "B": "line"}, "diameter": "8 mm", "length": 5, "inertia": True},
                 "ram": {

@@ -27,7 +27,7 @@ def test_what_tanks_gave_is_in_the_volumes_to_round_off(zoo, method):
     """Of methods that solve no equation to a tolerance."""
     settings = {"tolerance": 1e-6} if method == "dopri5" else {"step": 1e-3}
     result = zoo().simulate(integrator=method, duration=5e-3, output_interval=1e-3, verify=False, **settings)
-    masses = [name for name in result.variables if re.fullmatch(r"state\.\w+\.mass(_port)?(_[AB\dMNXCY]+)?", name)]
+    masses = [name for name in result.variables if re.fullmatch(r"state\.\w+\.mass(_port)?(_[AB\dMNXCYRH]+)?", name)]
     gained = sum(history(result, name) for name in masses)
     taken = history(result, "state.hydraulics.taken_in")
     assert len(masses) > 3

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from circuits import BAR, PA, circuit, history, steady
-from nivel.elements.circuits.lines import RATES, WEIGHTS
+from nivel.elements.circuits.line_friction import RATES, WEIGHTS
 
 pytestmark = pytest.mark.covering
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nivel.elements.circuits.lines import loss
+from nivel.elements.circuits.line_friction import loss
 from nivel.elements.circuits.restrictions import reduced_flow
 from nivel.elements.circuits.smooth import clipped, maximum_within, ramp, root_flow, step
 

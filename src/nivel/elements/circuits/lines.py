@@ -2,13 +2,7 @@
 
     l/A d(ṁ)/dt = p_a - p_b - Δp        Δp = g R ρ Q (1 + (Q/(g Q_c))⁶)^(1/8) + ζ ρ/(2 A²) Q |Q| + g U ρ Σ y_i
 
-g is the growth of the viscosity with pressure and temperature (`nivel.elements.circuits.density`).
-The first part is the loss of a round pipe, Hagen and Poiseuille's for Q ≪ Q_c and Blasius's, Δp ~ Q^(7/4), for Q ≫ Q_c; both meet at
-Reynolds' number 1187, Q_c. The second one is that of bends. The third one is the difference of laminar
-friction to that of a steady flow (Zielke 1968), with his weight as a sum of exponentials (Trikha 1975), those of Kagawa, Lee, Kitagawa
-and Takenaka 1983:
-
-    y_i = z_i + m_i Q        ż_i = -n_i g κ (z_i + m_i Q)        κ = 4 ν/d²        U = 16 ν l/(d² A)
+Its terms stand in `nivel.elements.circuits.line_friction`.
 """
 
 from __future__ import annotations
@@ -18,14 +12,26 @@ from collections.abc import Iterator
 from math import pi
 from typing import Any, ClassVar, Literal
 
-import numpy as np
-
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component
 from nivel.elements.circuits.curves import LengthExpansion, hose_points
+from nivel.elements.circuits.delay_lines import add_delay, pass_waves
 from nivel.elements.circuits.density import DENSITY, MODULUS, VISCOSITY, thickening
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.ledger import lose_between, transfer
+from nivel.elements.circuits.line_friction import (
+    BENDS,
+    CRITICAL_REYNOLDS,
+    DECAY,
+    KINETIC_DENSITY,
+    RATES,
+    SLENDER,
+    SMALL,
+    UNSTEADY,
+    WEIGHTS,
+    slope_of_loss,
+    steady_loss,
+)
 from nivel.elements.circuits.nodes import NO_ACCUMULATOR, growth_of_walls, volume_node
 from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import magnitude_within
@@ -39,29 +45,33 @@ from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import NotNegativeNumber, Truth
 from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, Maybe, OneRecord
-from nivel.machine.units.quantity import Whole
-from nivel.native.function import leaf
+from nivel.machine.units.quantity import Duration, Whole
 
-MOST_SEGMENTS, MOST_ITERATIONS = 100, 50
-CRITICAL_REYNOLDS = (0.3164 / 64.0) ** (-4.0 / 3.0)  # where 64/Re is 0.3164 Re^(-1/4)
+MOST_SEGMENTS = 100
 
 
 class Line(Component):
-    """A long pipe or hose in segments, each a volume, with inertia and friction that depends on the frequency between them.
+    """A long pipe or hose, with friction that depends on the frequency.
 
-    `segments` volumes NAME.1 … lie between A and B; the first and the last flow pass half of one.
+    segments : `segments` volumes NAME.1 … lie between A and B, with inertia between them; the first and the last flow pass half of one.
+    delay : waves take their time from one end to the other (`nivel.elements.circuits.delay_lines`).
     """
 
     needs: ClassVar[tuple[str, ...]] = ("A", "B")
     passes: ClassVar[tuple[tuple[str, str], ...]] = (("A", "B"), ("B", "A"))
     nodes: ClassVar[tuple[str, ...]] = (".1",)
-    late: ClassVar[tuple[str, ...]] = ("flow_A", "flow_B")
+    late: ClassVar[tuple[str, ...]] = ("flow_A", "flow_B", "wave_A", "wave_B")
 
     type: Literal["line"] = "line"
+    model: Literal["segments", "delay"] = Field(default="segments", description="volumes, or waves that arrive later")
     diameter: ranges.Bore = Field()
     diameter_B: Maybe[ranges.Bore] = Field(default=None, description="at B, where it changes evenly along the line")
     length: ranges.PipeLength = Field()
     segments: Whole = Field(default=10, description="number of its volumes, up to 100")
+    sample_time: Duration = Field(default=1e-3, description="of delay: between two samples of its waves")
+    mean_pressure: ranges.Level = Field(
+        default=1e7, description="of delay, absolute: at which its speed of sound and its density hold"
+    )
     unsteady_friction: Truth = Field(default=True, description="whether friction depends on the frequency (Zielke)")
     bends: NotNegativeNumber = Field(default=0.0, description="sum of the loss coefficients of bends and fittings")
     wall_modulus: Maybe[ranges.WallModulus] = Field(default=None, description="as of a volume")
@@ -84,11 +94,19 @@ class Line(Component):
 
     @classmethod
     def nodes_in(cls, data: Any) -> tuple[str, ...]:
+        if entry(data, "model") == "delay":
+            return ()
         count = entry(data, "segments")
         return tuple(f".{k + 1}" for k in range(count if isinstance(count, int) else 10))
 
+    @classmethod
+    def signals_in(cls, data: Any) -> tuple[str, ...]:
+        return cls.late if entry(data, "model") == "delay" else ("flow_A", "flow_B")
+
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
+        if self.model == "delay" and self.diameter_B is not None:
+            yield superfluous("diameter_B", "belongs to `model: segments`; waves keep their size in one diameter")
         if not 1 <= self.segments <= MOST_SEGMENTS:
             yield Problem(("segments",), f"1 to {MOST_SEGMENTS} segments were expected, got {self.segments}")
         if self.expansion is not None and self.wall_modulus is not None:
@@ -97,48 +115,6 @@ class Line(Component):
 
 # columns of `columns`; states: mass flow, then the z_i, one behind the other. Output: flow [m³/s]
 OUTPUT, FROM, TO, STATE, FIRST_PART, PARTS = 0, 1, 2, 3, 4, 5
-# columns of `number`: R over ρ, Q_c [m³/s], A/l [m], density of the kinetic energy [kg/m³], ζ/(2 A²) [1/m⁴], U, κ [1/s], flow within which
-# |Q| is rounded [m³/s]
-RESISTANCE, CRITICAL, SLENDER, KINETIC_DENSITY, BENDS, UNSTEADY, DECAY, SMALL = range(8)
-# n_i and m_i
-RATES = np.array((26.3744, 72.8033, 187.424, 536.626, 1570.60, 4618.13, 13601.1, 40082.5, 118153.0, 348316.0))
-WEIGHTS = np.array((1.0, 1.16725, 2.20064, 3.92861, 6.78788, 11.6761, 20.0612, 34.4541, 59.1642, 101.590))
-
-
-@leaf
-def loss(n, g, density, flow):
-    """Δp [Pa] of the volume flow; g is the growth of the viscosity."""
-    ratio = flow / (n[CRITICAL] * g)
-    square = ratio * ratio
-    return n[RESISTANCE] * g * density * flow * np.sqrt(np.sqrt(np.sqrt(1.0 + square * square * square)))
-
-
-@leaf
-def slope_of_loss(n, g, flow):
-    """∂Δp/∂Q over the density."""
-    sixth = (flow / (n[CRITICAL] * g)) ** 6
-    return n[RESISTANCE] * g * (1.0 + sixth) ** 0.125 * (1.0 + 0.75 * sixth / (1.0 + sixth))
-
-
-@leaf
-def flow_ratio(y):
-    """The real x with x (1 + x⁶)^(1/8) = y, by Newton's method from above."""
-    size = np.abs(y)
-    x = size if size < 1.0 else size ** (4.0 / 7.0)
-    for _ in range(MOST_ITERATIONS):
-        sixth = x**6
-        root = (1.0 + sixth) ** 0.125
-        change = (x * root - size) / (root * (1.0 + 0.75 * sixth / (1.0 + sixth)))
-        x -= change
-        if np.abs(change) <= 1e-12 * x + 1e-300:
-            break
-    return x if y > 0.0 else -x
-
-
-@leaf
-def steady_loss(n, g, density, flow):
-    """Δp [Pa] of a steady flow."""
-    return loss(n, g, density, flow) + n[BENDS] * density * flow * magnitude_within(flow, n[SMALL])
 
 
 @called(Phase.FLOWS, 9)
@@ -198,7 +174,7 @@ def add_slopes(machine, index, n, t):
 def line_nodes(builder: SystemBuilder, component: Line, swept: Swept) -> Iterator[Node]:
     """The volumes of the segments of a line."""
     length = component.length / component.segments
-    for k, area in enumerate(component.areas_of_segments):
+    for k, area in enumerate(component.areas_of_segments if component.model == "segments" else ()):
         size = area * length
         curve = hose_points(component.expansion, length)
         room = (size, growth_of_walls(size, component.wall_modulus), *NO_ACCUMULATOR, *curve)
@@ -206,7 +182,9 @@ def line_nodes(builder: SystemBuilder, component: Line, swept: Swept) -> Iterato
 
 
 def add_line(builder: SystemBuilder, component: Line) -> None:
-    """The flows between A, the segments and B."""
+    """The flows between A, the segments and B, or the waves between A and B."""
+    if component.model == "delay":
+        return add_delay(builder, component)
     name, count = component.name, component.segments
     nodes = [component.ports["A"], *(f"{name}.{k + 1}" for k in range(count)), component.ports["B"]]
     fluid = builder.circuit.fluids[builder.circuit.nodes[nodes[1]].fluid]
@@ -231,6 +209,7 @@ def add_line(builder: SystemBuilder, component: Line) -> None:
         numbers += [4.0 * viscosity / d**2, 1e-3 * critical]
         columns = [first, builder.node(nodes[k]), builder.node(nodes[k + 1]), state, parts[0] if parts else 0, terms]
         builder.elements.add(flow_in_lines, columns, numbers)
+    return None
 
 
 def _friction_terms(component: Line, fluid: tuple[float, ...]) -> int:
@@ -241,4 +220,4 @@ def _friction_terms(component: Line, fluid: tuple[float, ...]) -> int:
     return min(len(slower) + 1, len(RATES))
 
 
-KINDS = (ComponentKind(Line, add_line, (flow_in_lines,), symbol=pipe, nodes=line_nodes),)
+KINDS = (ComponentKind(Line, add_line, (flow_in_lines, pass_waves), symbol=pipe, nodes=line_nodes),)

@@ -10,15 +10,15 @@ from nivel.elements.circuits.component import Component
 from nivel.elements.circuits.density import thickening
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.ledger import lose_between, transfer
-from nivel.elements.circuits.lines import (
+from nivel.elements.circuits.line_friction import (
     CRITICAL,
     CRITICAL_REYNOLDS,
     RESISTANCE,
-    flow_in_lines,
     flow_ratio,
     loss,
     slope_of_loss,
 )
+from nivel.elements.circuits.lines import flow_in_lines
 from nivel.elements.circuits.orifices import flowing
 from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.symbol import pipe

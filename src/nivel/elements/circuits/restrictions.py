@@ -26,11 +26,14 @@ from nivel.native.function import leaf, stage
 
 # columns of `columns`; POSITION: output of the valve, or a function. Output: flow [m³/s]
 OUTPUT, FROM, TO, KIND, POSITION = 0, 1, 2, 3, 4
-# kinds of openings: one; a function; the position of a valve; that of an edge; of an edge that is open about the middle; of a cushion
-FIXED, GIVEN, DIRECT, EDGE, MIDDLE, CUSHION = 0, 1, 2, 3, 4, 5
+# kinds of openings: one; a function; the position of a valve; that of an edge; of an edge that is open about the middle; of a cushion; of
+# an edge that closes again
+FIXED, GIVEN, DIRECT, EDGE, MIDDLE, CUSHION, BAND = 0, 1, 2, 3, 4, 5, 6
 # columns of `number`: K [m³/s/√Pa], corner c [Pa], leak G [m³/s/Pa]; of edges the factor and shift of z, the width of the ramp, 1 over its
-# greatest value; of cushions the place of the end, 1 or -1 where the piston comes from below or above, their length, the least opening
+# greatest value, and the z from which one closes again; of cushions the place of the end, 1 or -1 where the piston comes from below or
+# above, their length, the least opening
 FLOW, CORNER, LEAK, FACTOR, SHIFT, WIDTH, SCALE, LEAST = 0, 1, 2, 3, 4, 5, 6, 7
+CLOSES = 7
 
 
 @stage
@@ -51,6 +54,9 @@ def opening_of(machine, index, n, t):
     if kind == CUSHION:
         away = (value[index[POSITION]] - n[SHIFT]) * n[FACTOR]
         return n[LEAST] + (1.0 - n[LEAST]) * step(away / n[WIDTH])
+    if kind == BAND:
+        z = n[FACTOR] * clipped(value[index[POSITION]], -1.0) + n[SHIFT]
+        return ramp(z, n[WIDTH]) * n[SCALE] * (1.0 - step((z - n[CLOSES]) / n[WIDTH]))
     return 0.0 * value[index[OUTPUT]] + 1.0
 
 
@@ -80,8 +86,13 @@ def slope_of_opening(index, n, u):
         return 1.0 if 0.0 <= u <= 1.0 else 0.0
     if not -1.0 <= u <= 1.0:
         return 0.0
+    z = n[FACTOR] * u + n[SHIFT]
     if kind == EDGE:
-        return n[FACTOR] * step((n[FACTOR] * u + n[SHIFT]) / n[WIDTH]) * n[SCALE]
+        return n[FACTOR] * step(z / n[WIDTH]) * n[SCALE]
+    if kind == BAND:
+        beyond = (z - n[CLOSES]) / n[WIDTH]
+        opens = step(z / n[WIDTH]) * (1.0 - step(beyond))
+        return n[FACTOR] * n[SCALE] * (opens - ramp(z, n[WIDTH]) * slope_of_step(beyond) / n[WIDTH])
     size = magnitude_within(u, 1e-6)
     return -slope_of_step(size / n[WIDTH]) / n[WIDTH] * u / size
 

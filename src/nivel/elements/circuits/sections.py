@@ -7,15 +7,16 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated, VaryingPressure, problem_of_share
-from nivel.elements.circuits.composed import INNER_VOLUME, add_opened, sums
+from nivel.elements.circuits.composed import INNER_VOLUME, add_check_between, add_opened, sums
 from nivel.elements.circuits.directional_valves import add_spool, move
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
 from nivel.elements.circuits.poppets import lift
-from nivel.elements.circuits.restrictions import EDGE, add_flow, restrict
-from nivel.elements.circuits.symbol import Symbol, arrow, in_bar, moved, path
-from nivel.elements.circuits.ways import directional_valve
+from nivel.elements.circuits.restrictions import BAND, EDGE, MIDDLE, add_flow, restrict
+from nivel.elements.circuits.symbol import Symbol, arrow, check_at, in_bar, moved, path
+from nivel.elements.circuits.ways import directional_valve, spool
 from nivel.known import SystemBuilder
+from nivel.lazy import replace
 from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Leakage, PositiveNumber
 from nivel.machine.core.coefficient import Share as Proportion
@@ -24,36 +25,50 @@ from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Quantity
 
-NODES_OF = {"none": (), "pre": (".M",), "post": (".M", ".C")}
+# ports of a section by its `open_centre`: N is the inlet of the neutral circulation, C its outlet to the next section
+PORTS = {
+    None: (("P", "T", "A", "B"), ("LS",)),
+    "parallel": (("P", "N", "C", "T", "A", "B"), ()),
+    "tandem": (("N", "C", "T", "A", "B"), ("P",)),
+    "series": (("N", "C", "A", "B"), ()),
+}
+# signals by what feeds the metering edges, and nodes within: M before or behind them, C behind a compensator
+FED_BY: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "none": (("flow_PA", "flow_PB"), ()),
+    "pre": (("compensator_position", "compensator_flow", "flow_MA", "flow_MB"), (".M",)),
+    "post": (("compensator_position", "compensator_flow", "flow_PM", "flow_CA", "flow_CB"), (".M", ".C")),
+    "parallel": (("flow_PM", "flow_NC", "flow_MA", "flow_MB"), (".M",)),
+    "tandem": (("flow_NM", "flow_PM", "flow_NC", "flow_MA", "flow_MB"), (".M",)),
+    "series": (("flow_NM", "flow_NC", "flow_MA", "flow_MB"), (".M",)),
+}
+BACK = {"A": "B", "B": "A"}
 
 
 class Section(Rated):
-    """A 4/3 section of a mobile valve: `command` from -1 to 1 meters the flow from P to A, or to B; the other side drains to T.
+    """A section of a mobile valve: `command` from -1 to 1 meters the flow from P to A, or to B; the other side drains to T.
 
     pre : a compensator before the spool holds the `margin` over it; with `saturation_share` it holds that share of what the pump gives
     above LS. post : a compensator behind the metering edge brings the pressure there to LS plus `margin`, so that all sections share
-    what there is. none : the spool alone.
+    what there is. none : the spool alone. `open_centre`, a 6/3 section: a passage from N to C is open about the middle, and the feed has
+    a check valve.
     """
 
     needs: ClassVar[tuple[str, ...]] = ("P", "T", "A", "B")
-    may: ClassVar[tuple[str, ...]] = ("LS",)
-    nodes: ClassVar[tuple[str, ...]] = (".M", ".C")
+    may: ClassVar[tuple[str, ...]] = ("LS", "N", "C")
+    nodes: ClassVar[tuple[str, ...]] = (".M", ".C", ".R", ".HA", ".HB")
     loads: ClassVar[bool] = True
-    functions: ClassVar[tuple[str, ...]] = ("command", "margin")
-    early: ClassVar[tuple[str, ...]] = ("pressure_M", "pressure_C")
-    late: ClassVar[tuple[str, ...]] = (
-        "position",
-        "compensator_position",
-        "compensator_flow",
-        "flow_PA",
-        "flow_PB",
-        "flow_PM",
-        "flow_MA",
-        "flow_MB",
-        "flow_CA",
-        "flow_CB",
-        "flow_AT",
-        "flow_BT",
+    functions: ClassVar[tuple[str, ...]] = ("command", "margin", "regeneration_until")
+    early: ClassVar[tuple[str, ...]] = tuple(f"pressure_{node[1:]}" for node in nodes)
+    late: ClassVar[tuple[str, ...]] = tuple(
+        dict.fromkeys(
+            [
+                "position",
+                *(signal for signals, _ in FED_BY.values() for signal in signals),
+                *("flow_AT", "flow_BT", "flow_AC", "flow_BC", "flow_AR", "flow_BR", "flow_RT", "flow_RC"),
+                *("regenerated_flow_RA", "regenerated_flow_RB", "float_flow_AT", "float_flow_BT", "float_flow_NC"),
+                *(f"{word}_flow_{side}" for side in "AB" for word in ("check", "release")),
+            ]
+        )
     )
 
     type: Literal["section"] = "section"
@@ -84,72 +99,187 @@ class Section(Rated):
     lag: ranges.Lag = Field(default=0.01, description="time constant of the compensator; 0: none")
     leakage: Leakage = Field(default=0.0, description="of each edge")
     inner_volume: ranges.Size = Field(default=INNER_VOLUME, description="between spool and compensator")
+    open_centre: Literal["parallel", "tandem", "series"] | None = Field(
+        default=None,
+        description="a 6/3 section: P feeds it; N does, and it cuts off the next ones; it returns to C too",
+    )
+    bypass_flow: Maybe[ranges.Flow] = Field(
+        default=None, description="from N to C in the middle, at `pressure_drop`; default `flow`"
+    )
+    bypass_closes: Proportion = Field(default=0.7, description="share of the stroke at which N and C are apart")
+    parallel_flow: Maybe[ranges.Flow] = Field(
+        default=None, description="of tandem, from P at `pressure_drop`: what others before it leave of its feed"
+    )
+    float_from: Maybe[Proportion] = Field(
+        default=None, description="share of the stroke to B from which on A, B and T are joined and P is closed"
+    )
+    regeneration: Literal["A", "B"] | None = Field(
+        default=None, description="side that also gets what comes out of the other one, through a check valve"
+    )
+    regeneration_until: VaryingPressure = Field(
+        default=1e7, description="of the side with `regeneration` over the return, from which on the other one drains"
+    )
+    holding: Literal["A", "B", "both"] | None = Field(
+        default=None, description="sides with a poppet that is tight until the spool moves to the other side"
+    )
 
     @classmethod
     def nodes_in(cls, data: Any) -> tuple[str, ...]:
-        return NODES_OF.get(str(entry(data, "compensation") or "pre"), ())
+        _, nodes = FED_BY.get(_feed(data), ((), ()))
+        regeneration = (".R",) if entry(data, "regeneration") else ()
+        return (*nodes, *regeneration, *(f".H{side}" for side in _held(data)))
 
     @classmethod
     def signals_in(cls, data: Any) -> tuple[str, ...]:
-        kind = str(entry(data, "compensation") or "pre")
-        of_kind = {
-            "none": ("flow_PA", "flow_PB"),
-            "pre": ("compensator_position", "compensator_flow", "flow_MA", "flow_MB"),
-            "post": ("compensator_position", "compensator_flow", "flow_PM", "flow_CA", "flow_CB"),
-        }
-        pressures = tuple(f"pressure_{node[1:]}" for node in cls.nodes_in(data))
-        return (*pressures, "position", *of_kind.get(kind, ()), "flow_AT", "flow_BT")
+        feed, regenerates = _feed(data), entry(data, "regeneration")
+        signals, _ = FED_BY.get(feed, ((), ()))
+        out = "C" if feed == "series" else "T"
+        returns = [f"flow_{side}{'R' if BACK[side] == regenerates else out}" for side in "AB"]
+        if regenerates:
+            returns += [f"flow_R{out}", f"regenerated_flow_R{regenerates}"]
+        if entry(data, "float_from"):
+            returns += ["float_flow_BT", *(("float_flow_NC",) if "flow_NC" in signals else ())]
+        held = [f"{word}_flow_{side}" for side in _held(data) for word in ("check", "release")]
+        pressures = (f"pressure_{node[1:]}" for node in cls.nodes_in(data))
+        wanted = (signal for signal in signals if signal != "flow_PM" or feed != "tandem" or "P" in cls.ports_in(data))
+        return (*pressures, "position", *wanted, *returns, *held)
 
     def problems(self) -> Iterator[Problem]:
-        yield from super().problems()
+        yield from self.problems_of_ports(*PORTS[self.open_centre])
+        yield from self.problems_of_rating()
         yield from problem_of_share("command", self.command, -1.0)
         if not 0.0 <= self.overlap < 0.9:
             yield Problem(("overlap",), f"a share of the stroke from 0 to 0.9 was expected, got {self.overlap:g}")
         if self.is_of_gas:
             yield superfluous("sonic_conductance", "is of gases; a section is for liquids")
-        if (self.compensation == "none") == ("LS" in self.ports):
+        if self.open_centre is None and (self.compensation == "none") == ("LS" in self.ports):
             if self.compensation == "none":
                 yield superfluous("ports", "LS belongs to a section with a compensator")
             else:
                 yield Problem((), "port LS is missing: the compensator reads the load-sensing pressure; write `LS: ls`")
-        if self.saturation_share is not None and self.compensation != "pre":
+        if self.saturation_share is not None and _feed(self) != "pre":
             yield superfluous("saturation_share", "belongs to `compensation: pre`; post shares the flow by itself")
+        if self.open_centre and self.compensation == "post":
+            yield superfluous(
+                "compensation", "belongs to a section with a closed centre; leave out `open_centre` or it"
+            )
+        if (self.parallel_flow is None) == (self.open_centre == "tandem" and "P" in self.ports):
+            what = "belongs to `open_centre: tandem` with a port P, from which it comes"
+            yield (
+                superfluous("parallel_flow", what)
+                if self.parallel_flow
+                else Problem((), "`parallel_flow` is missing: what a tandem section gets from P, at `pressure_drop`")
+            )
+        if self.float_from is not None and self.open_centre == "series":
+            yield superfluous("float_from", "belongs to a section with a port T, to which A and B are joined")
+        elif self.float_from is not None and not self.overlap + 0.1 < self.float_from < 0.95:
+            least = self.overlap + 0.1
+            yield Problem(("float_from",), f"a share from {least:g} to 0.95 was expected, got {self.float_from:g}")
+        if self.bypass_closes <= self.overlap:
+            yield Problem(("bypass_closes",), f"more than the overlap was expected, got {self.bypass_closes:g}")
+        if self.bypass_flow is not None and self.open_centre is None:
+            yield superfluous("bypass_flow", "belongs to a section with an `open_centre`")
+
+
+def _feed(data: Any) -> str:
+    """What feeds the metering edges: the word of an open centre, else that of the compensator."""
+    return str(entry(data, "open_centre") or entry(data, "compensation") or "pre")
+
+
+def _held(data: Any) -> str:
+    """The sides that have a holding poppet."""
+    return {"A": "A", "B": "B", "both": "AB"}.get(str(entry(data, "holding")), "")
 
 
 DIRECTING = 4.0  # size of the edges behind a compensator over that of the metering ones
 
 
 def add_section(builder: SystemBuilder, component: Section) -> None:
-    """A spool, its metering edges with a compensator before or behind them, and its return edges."""
-    kind, ports, name = component.compensation, component.ports, component.name
+    """A spool, what feeds its metering edges, its return edges, and what they pass on their ways to A, B and T."""
+    kind, ports, name = _feed(component), component.ports, component.name
     position = builder.outputs.add((f"hydraulics.{name}.position", "1", f"position of {name}"))
     add_spool(builder, component, position, -1.0)
-    forward = component.conductance
-    back = component.flow_B / component.pressure_drop**0.5 if component.flow_B and component.pressure_drop else forward
-    p, m, c = ports["P"], f"{name}.M", f"{name}.C"
+    forward, drop = component.conductance, component.pressure_drop or 1.0
+    back = component.flow_B / drop**0.5 if component.flow_B else forward
+    m, c = f"{name}.M", f"{name}.C"
+    side = {each: f"{name}.H{each}" if each in _held(component) else ports[each] for each in "AB"}
+    floats = component.float_from or 1.0
 
-    def edge(quantity: str, ends: tuple[str, str], size: float, sign: float) -> None:
-        full = 1.0 - component.overlap - 0.5 * component.rounding
+    def edge(quantity: str, ends: tuple[str, str], size: float, sign: float, *, meters: bool = False) -> None:
+        """One that opens with the position, or against it; one that `meters` closes where the section floats."""
+        full = (floats if sign < 0.0 else 1.0) - component.overlap - 0.5 * component.rounding
         slope = [sign, -component.overlap, component.rounding, 1.0 / full]
         numbers = [size, component.transition, component.leakage, *slope]
-        add_flow(builder, name, quantity, ends, numbers, (EDGE, position))
+        if meters and sign < 0.0 and component.float_from is not None:
+            return add_flow(builder, name, quantity, ends, [*numbers, floats - component.overlap], (BAND, position))
+        return add_flow(builder, name, quantity, ends, numbers, (EDGE, position))
+
+    def joined_where_it_floats(quantity: str, ends: tuple[str, str], size: float) -> None:
+        slope = [-1.0, -floats, component.rounding, 1.0 / (1.0 - floats)]
+        add_flow(builder, name, quantity, ends, [size, component.transition, 0.0, *slope], (EDGE, position))
 
     if kind == "pre":
-        _add_compensator(builder, component, (p, m), (m, 1.0 - (component.saturation_share or 0.0)))
-        edge("flow_MA", (m, ports["A"]), forward, 1.0)
-        edge("flow_MB", (m, ports["B"]), back, -1.0)
+        _add_compensator(builder, component, (ports["P"], m), (m, 1.0 - (component.saturation_share or 0.0)))
     elif kind == "post":
-        edge("flow_PM", (p, m), forward, 1.0)
-        edge("flow_PM_back", (p, m), back, -1.0)
+        edge("flow_PM", (ports["P"], m), forward, 1.0)
+        edge("flow_PM_back", (ports["P"], m), back, -1.0, meters=True)
         _add_compensator(builder, component, (m, c), (m, 1.0))
-        edge("flow_CA", (c, ports["A"]), DIRECTING * forward, 1.0)
-        edge("flow_CB", (c, ports["B"]), DIRECTING * back, -1.0)
-    else:
-        edge("flow_PA", (p, ports["A"]), forward, 1.0)
-        edge("flow_PB", (p, ports["B"]), back, -1.0)
-    returned = component.return_flow / component.pressure_drop**0.5 if component.return_flow else None  # type: ignore[operator]
-    edge("flow_BT", (ports["B"], ports["T"]), returned or back, 1.0)
-    edge("flow_AT", (ports["A"], ports["T"]), returned or forward, -1.0)
+        edge("flow_CA", (c, side["A"]), DIRECTING * forward, 1.0)
+        edge("flow_CB", (c, side["B"]), DIRECTING * back, -1.0)
+    elif kind != "none":
+        bypass = component.bypass_flow / drop**0.5 if component.bypass_flow else forward
+        numbers = [bypass, component.transition, 0.0, 0.0, 0.0, component.bypass_closes]
+        add_flow(builder, name, "flow_NC", (ports["N"], ports["C"]), numbers, (MIDDLE, position))
+        if component.float_from is not None:
+            joined_where_it_floats("float_flow_NC", (ports["N"], ports["C"]), bypass)
+        for port, share in (("N", 1.0), ("P", component.parallel_flow)):
+            if port in ports and (kind == "parallel") <= (port == "P"):
+                size = DIRECTING * forward if share is None or port == "N" else share / drop**0.5
+                numbers = [size, component.transition, 0.0]
+                add_check_between(builder, component, f"flow_{port}M", (ports[port], m), numbers)
+    if kind != "post":
+        fed = ports["P"] if kind == "none" else m
+        edge(f"flow_{'P' if kind == 'none' else 'M'}A", (fed, side["A"]), forward, 1.0)
+        edge(f"flow_{'P' if kind == 'none' else 'M'}B", (fed, side["B"]), back, -1.0, meters=True)
+    returned = component.return_flow / drop**0.5 if component.return_flow else None
+    out = "C" if kind == "series" else "T"
+    for each, size, sign in (("B", returned or back, 1.0), ("A", returned or forward, -1.0)):
+        to = "R" if component.regeneration == BACK[each] else out
+        edge(f"flow_{each}{to}", (side[each], f"{name}.R" if to == "R" else ports[out]), size, sign)
+    if component.float_from is not None:
+        joined_where_it_floats("float_flow_BT", (ports["B"], ports["T"]), returned or back)
+    if component.regeneration is not None:
+        _add_regeneration(builder, component, side[component.regeneration], out)
+    for each in _held(component):
+        _add_holding(builder, component, each, position)
+
+
+def _add_regeneration(builder: SystemBuilder, component: Section, fed: str, out: str) -> None:
+    """From R to the side that is fed a check valve; to the return what opens as the pressure of that side rises."""
+    name, to, word = component.name, component.ports[out], component.regeneration
+    numbers = [DIRECTING * component.conductance, component.transition, 0.0]
+    add_check_between(builder, component, f"regenerated_flow_R{word}", (f"{name}.R", fed), numbers)
+    factors = sums((fed, 1.0), (to, -1.0))
+    add_opened(
+        builder,
+        component,
+        f"flow_R{out}",
+        (f"{name}.R", to),
+        factors,
+        component.regeneration_until,
+        numbers=numbers,
+        lag=0.0,
+    )
+
+
+def _add_holding(builder: SystemBuilder, component: Section, side: str, position: int) -> None:
+    """A check valve from the spool to A or B, which the spool opens as it moves to the other side."""
+    inner, port = f"{component.name}.H{side}", component.ports[side]
+    numbers = [DIRECTING * component.conductance, component.transition, 0.0]
+    add_check_between(builder, component, f"check_flow_{side}", (inner, port), numbers)
+    begins = 0.5 * component.overlap
+    slope = [1.0 if side == "B" else -1.0, -begins, component.rounding, 1.0 / (1.0 - begins - 0.5 * component.rounding)]
+    add_flow(builder, component.name, f"release_flow_{side}", (port, inner), [*numbers, *slope], (EDGE, position))
 
 
 def _add_compensator(
@@ -173,11 +303,24 @@ OF_SECTIONS = (move, lift, restrict)
 
 
 def section(data: Mapping[str, Any]) -> Symbol:
-    """A section: its spool, and its compensator before or behind the metering edge."""
-    spool = directional_valve({"ways": "4/3", "frequency": data.get("frequency") or 1.0})
-    kind = data.get("compensation") or "pre"
-    if kind == "none":
-        return spool
+    """A section: its spool, and its compensator before or behind the metering edge; poppets that hold stand on its ports."""
+    kind = _feed(data)
+    if kind in ("pre", "post"):
+        return _with_compensator(data, kind, directional_valve({"ways": "4/3", "frequency": 1.0}))
+    feed, out = ("N" if kind in ("tandem", "series") else "P"), ("C" if kind == "series" else "T")
+    below = [port for port in ("P", "N", "C", "T") if port in data["ports"]]
+    forward, back = [(feed, "A"), ("B", out)], [(feed, "B"), ("A", out)]
+    if data.get("regeneration"):
+        (forward if data["regeneration"] == "A" else back).append(("A", "B"))
+    positions = [forward, [("N", "C")] if "N" in below else [], back]
+    if data.get("float_from"):
+        positions.append([("A", out), ("B", out)])
+    drawn = spool(positions, ["A", "B"], below)
+    held = "".join(check_at(drawn.above[side], -18.0) for side in _held(data))
+    return replace(drawn, body=drawn.body + held)
+
+
+def _with_compensator(data: Mapping[str, Any], kind: str, spool: Symbol) -> Symbol:
     body, wide, below = moved(spool.body, 0.0, -13.0), spool.wide, spool.below
     p, t = below["P"], below["T"]
     if kind == "pre":
@@ -191,4 +334,6 @@ def section(data: Mapping[str, Any]) -> Symbol:
     return Symbol(body, wide, 34.0, spool.above, {**below, "LS": 40.0}, "valve", in_bar(data, "margin"))
 
 
-KINDS = (ComponentKind(Section, add_section, OF_SECTIONS, symbol=section, nodes=inner_nodes("M", "C")),)
+KINDS = (
+    ComponentKind(Section, add_section, OF_SECTIONS, symbol=section, nodes=inner_nodes("M", "C", "R", "HA", "HB")),
+)

@@ -341,7 +341,7 @@ def _rotor(builder: SystemBuilder, force: Drive, angle: bool) -> tuple[int, int]
         StateFact(f"{force.name}.rotor", "rad/s", f"speed of the shaft of {force.name}", 0.0, 1.0)
     )
     rate = ".".join(resolve(force.coordinate, builder.machine.joints)) + "_rate"
-    builder.begins.append((speed, linear((force.gear, rate))))
+    builder.samples.append((speed, linear((force.gear, rate)), None, 0.0))
     return twist, speed
 
 

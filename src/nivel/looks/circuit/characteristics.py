@@ -110,7 +110,13 @@ def _of_section(valve: Section, _: float) -> Chart:
     curves = []
     for side, sign, flow in (("A", 1.0, valve.flow), ("B", -1.0, valve.flow_B or valve.flow)):
         opening = _edge(u, sign, -valve.overlap, valve.overlap, valve.rounding)
+        if sign < 0.0 and valve.float_from is not None:
+            full = 1.0 - valve.overlap - 0.5 * valve.rounding
+            opening *= full / (full + valve.float_from - 1.0) * (1.0 - step((-u - valve.float_from) / valve.rounding))
         curves.append(Curve(f"to {side} at {drop:.3g} bar", u, (flow or 0.0) / LITRE_PER_MINUTE * opening))
+    if valve.open_centre is not None:
+        neutral = (valve.bypass_flow or valve.flow or 0.0) / LITRE_PER_MINUTE
+        curves.append(Curve(f"N to C at {drop:.3g} bar", u, neutral * (1.0 - step(np.abs(u) / valve.bypass_closes))))
     return Chart(valve.name, valve.type, "position", tuple(curves))
 
 

@@ -71,7 +71,7 @@ ENDS: Final[dict[str, dict[str, tuple[str, str]]]] = {
     "flow-source": {"flow": ("A", "B")},
 }
 DRIVEN: Final = ("pump", "hydraulic-motor", "flow-source")
-INNER: Final = ("M", "N", "C", "X", "Y")
+INNER: Final = ("M", "N", "C", "R", "X", "Y")
 
 
 @dataclass(frozen=True)
@@ -151,9 +151,9 @@ def _edges(result: Readable, data: Mapping[str, Any]) -> Iterator[tuple[NDArray[
 
 
 def _named(quantity: str, data: Mapping[str, Any]) -> tuple[str, str] | None:
-    """The ends of `flow_PA`, `centre_flow_PT`, `flow_MA` and the like."""
-    pair = quantity.removeprefix("centre_").removeprefix("flow_")
-    if not quantity.removeprefix("centre_").startswith("flow_"):
+    """The ends of `flow_PA`, `centre_flow_PT`, `float_flow_BT` and the like."""
+    _, flows, pair = quantity.rpartition("flow_")
+    if not flows:
         if quantity == "compensator_flow" and data.get("type") == "section":
             return ("P", "M") if data.get("compensation") == "pre" else ("M", "C")
         return None

@@ -13,7 +13,6 @@ from nivel.elements.circuits import COMPONENTS
 from nivel.elements.control import BLOCKS
 from nivel.elements.forces import FORCES
 from nivel.elements.joints import JOINTS
-from nivel.known import HOMES
 
 ROOMS: Final = {"forces": FORCES, "circuits": COMPONENTS, "control": BLOCKS}
 OTHERS: Final = {"circuits": ("Fluid", "Gas")}  # records of rooms that are no kinds of an element
@@ -39,6 +38,7 @@ class Late:
     def __init__(self, name: str) -> None: ...
     def __getattr__(self, name: str) -> Any: ...
 
+def homes(file: str) -> dict[str, tuple[str, str]]: ...
 def provide(places: Mapping[str, str]) -> None: ...
 def provided(subject: str) -> Any: ...
 """
@@ -64,20 +64,6 @@ def stub_of_joints() -> str:
     source = Path(str(module.__file__)).read_text(encoding="utf-8")
     words = f"Literal[{', '.join(map(repr, sorted(JOINTS.homes)))}]"
     return HEAD + source.replace("Annotated[str, WordOf(JOINTS)]", words).replace("Annotated, Final", "Final, Literal")
-
-
-def stub_of_package() -> str:
-    """The text of `nivel/__init__.pyi`."""
-    rooms = [(*module.rsplit(".", 1), name) for name, module in nivel._ROOMS.items()]
-    names = [(module, name, name) for name, module in nivel._HOME.items()]
-    lines = sorted(f"from {module} import {inside} as {name}" for module, inside, name in (*rooms, *names))
-    return "\n".join((HEAD, *lines, "", "__version__: str", f"__all__ = {nivel.__all__!r}", ""))
-
-
-def stub_of_known() -> str:
-    """The text of `nivel/elements/known.pyi`."""
-    lines = (f"from {module} import {name} as {name}" for module, names in HOMES.items() for name in names.split())
-    return "\n".join((HEAD, *lines, "", "HOMES: dict[str, str]", ""))
 
 
 def late_modules() -> set[str]:
@@ -106,6 +92,7 @@ def stub_of_lazy() -> str:
     public = {
         "PLACES",
         "Late",
+        "homes",
         "provide",
         "provided",
         "asdict",
@@ -120,14 +107,11 @@ def stub_of_lazy() -> str:
 
 
 def write_stubs() -> None:
-    """Write the stubs of the package and of all rooms."""
-    Path(str(nivel.__file__)).with_suffix(".pyi").write_text(stub_of_package(), encoding="utf-8")
+    """Write the stubs of all rooms and of what is imported late."""
     (Path(str(nivel.__file__)).parent / "lazy.pyi").write_text(stub_of_lazy(), encoding="utf-8")
     (Path(str(import_module("nivel.elements.joints").__file__)).with_suffix(".pyi")).write_text(
         stub_of_joints(), encoding="utf-8"
     )
-    known = Path(str(import_module("nivel.known").__file__)).with_suffix(".pyi")
-    known.write_text(stub_of_known(), encoding="utf-8")
     for room in ROOMS:
         module = import_module(f"nivel.elements.{room}")
         Path(str(module.__file__)).with_suffix(".pyi").write_text(stub(room), encoding="utf-8")

@@ -15,53 +15,14 @@ import sys
 from importlib import import_module
 from typing import Any
 
-from nivel.lazy import provide
+from nivel.lazy import homes, provide
 
 __version__ = "0.2.0"
 
-# the names of each module; `packaging/write_settings.py` writes them into a stub, for editors and type checkers
-_NAMES = {
-    "nivel.api": "Machine import_model load open_result sweep",
-    "nivel.elements.forces.actuators": "Motor Servo Stop",
-    "nivel.elements.forces.bushing": "Bushing",
-    "nivel.elements.forces.drive_lines": "Brake Clutch Freewheel TransmissionLoss",
-    "nivel.elements.forces.friction": "Friction",
-    "nivel.elements.forces.loads": "PairForce PointForce Torque",
-    "nivel.elements.forces.ropes": "Rope",
-    "nivel.elements.forces.shafts": "BeltDrive Shaft",
-    "nivel.elements.forces.spring_node": "SpringNode",
-    "nivel.elements.forces.spring_series": "SpringSeries",
-    "nivel.elements.forces.springs": "JointSpringDamper SpringDamper ThreeAxisSpring TorsionalSpringDamper",
-    "nivel.elements.joints.couplings": "Belt FunctionCoupling Gear LinearCoupling Rack",
-    "nivel.elements.joints.drivers": "Driver",
-    "nivel.elements.joints.joint": "Joint",
-    "nivel.errors": "ModelError NivelError SolveError",
-    "nivel.live.opening": "export_page",
-    "nivel.elements.beams.beam": "Beam",
-    "nivel.machine.bodies.body": "Body",
-    "nivel.machine.control.block": "Block",
-    "nivel.machine.core.marker": "Marker",
-    "nivel.elements.contacts.contact": "Contact",
-    "nivel.machine.laws.time_function": "Expression PythonLaw Table",
-    "nivel.machine.machine_record": "MachineRecord",
-    "nivel.machine.settings.run": "AssemblySettings Baumgarte SimulationSettings",
-    "nivel.machine.signals.event": "Event",
-    "nivel.machine.signals.input": "Input",
-    "nivel.machine.signals.sensor": "Sensor",
-    "nivel.machine.signals.state": "State",
-    "nivel.results.comparison": "Comparison",
-    "nivel.results.result": "Result",
-    "nivel.studies": "load_study",
-}
-# rooms of records: forces, components of circuits, blocks of the control
-_ROOMS = {
-    "control": "nivel.elements.control",
-    "forces": "nivel.elements.forces",
-    "hydraulics": "nivel.elements.circuits",
-}
-_HOME = {name: module for module, names in _NAMES.items() for name in names.split()}
+# names of the package, which stand in its stub
+_HOMES = homes(__file__)
 
-__all__ = sorted((*_HOME, *_ROOMS))  # noqa: PLE0605
+__all__ = sorted(_HOMES)  # noqa: PLE0605
 
 
 # functions that results call and that stand in rooms above them
@@ -82,12 +43,12 @@ provide(
 
 
 def __getattr__(name: str) -> Any:
-    if name in _ROOMS:
-        return import_module(_ROOMS[name])
-    if name not in _HOME:
+    if name not in _HOMES:
         hint = _hint(name) if name[:1].isupper() else ""
         raise AttributeError(f"module 'nivel' has no attribute '{name}'{hint}", name=name, obj=sys.modules[__name__])
-    return getattr(import_module(_HOME[name]), name)
+    module, inside = _HOMES[name]
+    owner = import_module(module)
+    return getattr(owner, inside) if hasattr(owner, inside) else import_module(f"{module}.{inside}")
 
 
 def _hint(name: str) -> str:

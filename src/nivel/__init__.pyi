@@ -1,7 +1,5 @@
-# Written by `python packaging/write_settings.py` from the records. Do not edit.
-# fmt: off
-# ruff: noqa
-# pyright: reportOptionalMemberAccess=false
+# The names of the package, each loaded when it is used.
+# ruff: noqa: F401
 
 from nivel.api import Machine as Machine
 from nivel.api import import_model as import_model
@@ -64,4 +62,3 @@ from nivel.results.result import Result as Result
 from nivel.studies import load_study as load_study
 
 __version__: str
-__all__ = ['AssemblySettings', 'Baumgarte', 'Beam', 'Belt', 'BeltDrive', 'Block', 'Body', 'Brake', 'Bushing', 'Clutch', 'Comparison', 'Contact', 'Driver', 'Event', 'Expression', 'Freewheel', 'Friction', 'FunctionCoupling', 'Gear', 'Input', 'Joint', 'JointSpringDamper', 'LinearCoupling', 'Machine', 'MachineRecord', 'Marker', 'ModelError', 'Motor', 'NivelError', 'PairForce', 'PointForce', 'PythonLaw', 'Rack', 'Result', 'Rope', 'Sensor', 'Servo', 'Shaft', 'SimulationSettings', 'SolveError', 'SpringDamper', 'SpringNode', 'SpringSeries', 'State', 'Stop', 'Table', 'ThreeAxisSpring', 'Torque', 'TorsionalSpringDamper', 'TransmissionLoss', 'control', 'export_page', 'forces', 'hydraulics', 'import_model', 'load', 'load_study', 'open_result', 'sweep']

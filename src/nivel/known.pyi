@@ -1,7 +1,4 @@
-# Written by `python packaging/write_settings.py` from the records. Do not edit.
-# fmt: off
-# ruff: noqa
-# pyright: reportOptionalMemberAccess=false
+# Classes that annotations name, without an import of their modules when the package runs.
 
 from nivel.analysis.optimise.identify import Identified as Identified
 from nivel.analysis.optimise.optimise import Optimum as Optimum
@@ -93,5 +90,3 @@ from nivel.studies import Study as Study
 from nivel.system.builder import SystemBuilder as SystemBuilder
 from nivel.system.joint_rows import RowTable as RowTable
 from nivel.view.page import Inline as Inline
-
-HOMES: dict[str, str]

@@ -17,6 +17,7 @@ from functools import partial, total_ordering
 from importlib import import_module
 from inspect import Parameter, Signature, signature
 from operator import attrgetter
+from pathlib import Path
 from types import ModuleType
 from typing import Any, Final
 
@@ -47,6 +48,12 @@ PIL, distributed, gymnasium, h5py, imageio_ffmpeg, matplotlib, meshio, nivel = m
 numpy, pint, pyarrow, rich, scipy, skfem, websockets, xarray = map(
     Late, ("numpy", "pint", "pyarrow", "rich", "scipy", "skfem", "websockets", "xarray")
 )
+
+
+def homes(file: str) -> dict[str, tuple[str, str]]:
+    """The names that the stub beside a file imports, which are imported when they are used: name → module, and its name there."""
+    rows = (line.split() for line in Path(file).with_suffix(".pyi").read_text("utf-8").splitlines())
+    return {row[-1]: (row[1], row[3]) for row in rows if row and row[0] == "from"}
 
 
 def provide(places: Mapping[str, str]) -> None:

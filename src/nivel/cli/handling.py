@@ -20,7 +20,13 @@ if TYPE_CHECKING:
     from nivel.elements.control.vehicle_driver import VehicleDriver
     from nivel.report.handling_page import Manoeuvre, Numbers
 
-RAMP, AT, TURN, BRAKES = 20.0, 1.0, 4.0, 5.0  # [s] of the ramp, [s] of a step, [m/s²] of a turn, [s] where brakes come
+TURN, SMALL = 4.0, 0.2  # [m/s²] of a turn, and of one so small that its tyres are linear
+AT, HOLD, RAMP, BRAKES = (
+    1.0,
+    4.0,
+    20.0,
+    5.0,
+)  # [s] of a step, of a small turn to each side, of the ramp after them; where brakes come
 GRIP, SLOPE = 0.3, 0.15  # of the left side of a split road, and of a slope
 # lengths of ISO 3888-2:2011 from the first gate on: gates and ways between them; the lane beside is 1 m to the left
 LENGTHS: Final = (12.0, 13.5, 11.0, 12.5, 12.0)
@@ -72,7 +78,8 @@ def command(machine: str, overrides: dict[str, str], only: tuple[str, ...] | Non
 
 def drive(machine: Machine, name: str, width: float = 1.8, listener: Any = None) -> tuple[Manoeuvre, Numbers, str]:
     """A manoeuvre: its histories, its numbers, and the verdict on the run. Raises ModelError where nobody drives."""
-    drivers: list[VehicleDriver] = [each for each in machine.record.control if each.type == "vehicle-driver"]
+    blocks = machine.record.control
+    drivers = [each for each in blocks if isinstance(each, nivel.elements.control.vehicle_driver.VehicleDriver)]
     if len(drivers) != 1 or drivers[0].course is None:
         message = (
             "a control with one block `vehicle-driver` and its `course` was expected: who steers and holds the speed"
@@ -97,10 +104,12 @@ def _turning(driver: VehicleDriver, speed: float) -> float:
 
 
 def circle(machine: Machine, driver: VehicleDriver, speed: float, width: float) -> Made:
-    angle = 1.5 * _turning(driver, speed)
-    own = _open_loop(driver, f"{angle!r}*min(time/{RAMP}, 1)", speed)
+    angle, small = 1.5 * _turning(driver, speed), SMALL / TURN * _turning(driver, speed)
+    sides = f"step(time, 0, 0, 1, {small!r}) - step(time, {HOLD}, 0, {HOLD + 1.0}, {2.0 * small!r})"
+    own = _open_loop(driver, f"{sides} + {angle + small!r}*max(time - {2.0 * HOLD}, 0)/{RAMP}", speed)
     pages, wheelbase = nivel.report.handling_page, driver.wheelbase or 0.0
-    return machine.replace(own).with_settings({"duration": RAMP}), lambda m: pages.circle_numbers(m, wheelbase)
+    made = machine.replace(own).with_settings({"duration": 2.0 * HOLD + RAMP})
+    return made, lambda m: pages.circle_numbers(m, wheelbase, (HOLD, 2.0 * HOLD))
 
 
 def step(machine: Machine, driver: VehicleDriver, speed: float, width: float) -> Made:

@@ -15,8 +15,7 @@ from nivel.results.result import Result
 Array = NDArray[np.float64]
 Numbers = dict[str, tuple[float, str]]  # value and unit by name
 G = 9.80665
-LINEAR = 2.0  # [m/s²] of lateral acceleration, up to which a gradient is taken
-SETTLED = 0.1  # of the greatest yaw rate, within which the end of a step is steady
+SETTLED = 0.02  # change of a state in half a second, up to which it is steady
 NOTE = "x forwards, y to the left; accelerations without gravity, of the origin of the body."
 
 
@@ -54,26 +53,33 @@ class Manoeuvre:
         return cls(name, run.time, run.array(f"control.{driver}"), vx, vy, ax, ay, yaw, rate, roll, p[:, 0], p[:, 1])
 
 
-def circle_numbers(m: Manoeuvre, wheelbase: float) -> Numbers:
-    """Gradients by lateral acceleration v r of a slow ramp at one speed (ISO 4138): of steering less L r/v, side slip and roll."""
+def circle_numbers(m: Manoeuvre, wheelbase: float, held: tuple[float, float]) -> Numbers:
+    """Gradients by lateral acceleration v r at one speed (ISO 4138), of steering less L r/v, side slip and roll.
+
+    They are slopes at straight ahead: differences of two steady states, a little to the left and to the right, at the times `held`.
+    """
     lateral = m.vx * m.yaw_rate
-    small = (np.abs(lateral) > 0.1 * LINEAR) & (np.abs(lateral) < LINEAR)
-    if np.count_nonzero(small) < 4:
-        return {"greatest lateral acceleration": (float(np.max(np.abs(m.ay))), "m/s²")}
     of = {
         "understeer gradient": m.steering - wheelbase * m.yaw_rate / m.vx,
-        "side slip gradient": np.arctan2(m.vy, m.vx) + 0.0 * lateral,
+        "side slip gradient": np.arctan2(m.vy, m.vx),
         "roll gradient": m.roll,
     }
-    # the slope at zero: forces bend by |x| x (brushes) and x³
-    bend = lateral * np.abs(lateral), lateral**3
-    rows = np.stack([np.ones_like(lateral), lateral, *bend], axis=1)[small]
-    slopes = {name: float(np.linalg.lstsq(rows, each[small], rcond=None)[0][1]) for name, each in of.items()}
-    out: Numbers = {name: (np.degrees(slope) * G, "°/g") for name, slope in slopes.items()}
-    k = slopes["understeer gradient"]
-    if k != 0.0:
-        out["characteristic speed" if k > 0 else "critical speed"] = float(np.sqrt(wheelbase / abs(k))), "m/s"
+    left, right = np.interp(held, m.time, lateral)
+    out: Numbers = {}
+    if left > right:
+        slopes = {name: float(-np.diff(np.interp(held, m.time, each))[0] / (left - right)) for name, each in of.items()}
+        out = {name: (float(np.degrees(slope)) * G, "°/g") for name, slope in slopes.items()}
+        k = slopes["understeer gradient"]
+        if k != 0.0:
+            out["characteristic speed" if k > 0 else "critical speed"] = float(np.sqrt(wheelbase / abs(k))), "m/s"
+        change = np.abs(np.interp(np.array(held) - 0.5, m.time, lateral) - (left, right))
+        out |= _unsteady(float(np.max(change) / (left - right)))
     return {**out, "greatest lateral acceleration": (float(np.max(np.abs(m.ay))), "m/s²")}
+
+
+def _unsteady(change: float) -> Numbers:
+    """Said of a state that changes yet: by this share in half a second."""
+    return {"not yet steady: change in the last half second": (100.0 * change, "%")} if change > SETTLED else {}
 
 
 def step_numbers(m: Manoeuvre) -> Numbers:
@@ -88,7 +94,7 @@ def step_numbers(m: Manoeuvre) -> Numbers:
     out = {"yaw rate gain": (end / float(m.steering[-1]), "1/s"), "response time of the yaw rate": (rise, "s"),
            "peak response time": (float(m.time[peak]) - half, "s"), "overshoot of the yaw rate": (100.0 * (float(shares[peak]) - 1.0), "%"),
            "lateral acceleration": (float(m.ay[-1]), "m/s²")}  # fmt: skip
-    return out | ({"not yet steady: change in the last half second": (100.0 * swing, "%")} if swing > SETTLED else {})
+    return out | _unsteady(swing)
 
 
 def lane_numbers(m: Manoeuvre, gates: list[tuple[float, float, float, float]], width: float) -> Numbers:
@@ -141,9 +147,8 @@ def handling_html(machine: str, found: Mapping[str, tuple[Manoeuvre, Numbers, st
             + f" (trust: {trust})"
         )
         if name == "circle":
-            lateral = m.vx * m.yaw_rate / G
-            lines = [Line("steering", lateral, np.degrees(m.steering)), Line("side slip", lateral, np.degrees(np.arctan2(m.vy, m.vx))),
-                     Line("roll", lateral, np.degrees(m.roll))]  # fmt: skip
+            angles = {"steering": m.steering, "side slip": np.arctan2(m.vy, m.vx), "roll": m.roll}
+            lines = [Line(of, m.vx * m.yaw_rate / G, np.degrees(angle)) for of, angle in angles.items()]
             plots.append(("Understeer", curves(lines, "lateral acceleration [g]", "angle [°]")))
         else:
             rate = [

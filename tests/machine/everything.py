@@ -916,6 +916,18 @@ EVERYTHING = {
         {"name": "rough", "type": "high-pass", "input": "observer.y2", "time_constant": 0.1},
         {"name": "quiet", "type": "notch", "input": "time", "frequency": "50 Hz"},
         {"name": "early", "type": "lead-lag", "input": "time", "lead": 0.1, "lag": 0.01},
+        {
+            "name": "cabin",
+            "type": "vehicle-driver",
+            "speed": "hinge.angle_rate",
+            "target": "wish.value",
+            "x": "hinge.angle",
+            "y": "time",
+            "heading": "hinge.angle",
+            "wheelbase": 2.7,
+            "course": [[0, 0], [10, 0], [20, 1]],
+            "lag": 0.1,
+        },
         {"name": "slowly", "type": "rate-limit", "input": "wish.value", "rate": 2, "sample_time": 0.01},
         {
             "name": "later",

@@ -6,7 +6,7 @@ import json
 import math
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, cast
 
 import click
 
@@ -78,8 +78,7 @@ def command(machine: str, overrides: dict[str, str], only: tuple[str, ...] | Non
 
 def drive(machine: Machine, name: str, width: float = 1.8, listener: Any = None) -> tuple[Manoeuvre, Numbers, str]:
     """A manoeuvre: its histories, its numbers, and the verdict on the run. Raises ModelError where nobody drives."""
-    blocks = machine.record.control
-    drivers = [each for each in blocks if isinstance(each, nivel.elements.control.vehicle_driver.VehicleDriver)]
+    drivers = cast("list[VehicleDriver]", [each for each in machine.record.control if each.type == "vehicle-driver"])
     if len(drivers) != 1 or drivers[0].course is None:
         message = (
             "a control with one block `vehicle-driver` and its `course` was expected: who steers and holds the speed"

@@ -16,7 +16,10 @@ Array = NDArray[np.float64]
 Numbers = dict[str, tuple[float, str]]  # value and unit by name
 G = 9.80665
 SETTLED = 0.02  # change of a state in half a second, up to which it is steady
-NOTE = "x forwards, y to the left; accelerations without gravity, of the origin of the body."
+NOTE = (
+    "x forwards, y to the left; accelerations without gravity, of the origin of the body. "
+    "The trust verdict is that of each run, without a second run."
+)
 
 
 @dataclass(frozen=True)

@@ -29,8 +29,11 @@ def single_track(speed, driver, **simulation):
     joints = {"plane": {"type": "planar", "bodies": ["ground", "body"], "point": [0, 0, at], "axis": [0, 0, 1]},
               "king": {"type": "revolute", "bodies": ["body", "knuckle"], "point": [FRONT, 0, at], "axis": [0, 0, 1]}}  # fmt: skip
     markers = {"road": {"body": "ground"}, "nose": {"body": "body"}, "tail": {"body": "body", "position": [REAR, 0, 0]}}
-    forces: dict[str, dict[str, object]] = {"rack": {"type": "motor", "coordinate": "king", "effort": f"{RACK}*(driver - king.angle) - 100*king.angle_rate"},
-              "drive": {"type": "motor", "coordinate": "rear", "effort": "1000*(driver.throttle - driver.brake)"}}  # fmt: skip
+    rack = f"{RACK}*(driver - king.angle) - 100*king.angle_rate"
+    forces: dict[str, dict[str, object]] = {
+        "rack": {"type": "motor", "coordinate": "king", "effort": rack},
+        "drive": {"type": "motor", "coordinate": "rear", "effort": "1000*(driver.throttle - driver.brake)"},
+    }
     for name, x, on in (("front", FRONT, "knuckle"), ("rear", REAR, "body")):
         bodies[f"{name}_wheel"] = {"mass": 1e-3, "inertia": [1.0] * 3, "position": [x, 0.0, at], "velocity": [speed, 0, 0],
                                    "angular_velocity": [0, speed / r, 0]}  # fmt: skip

@@ -115,68 +115,19 @@ def _squeezed(text: str) -> str:
     return "".join(text.upper().split())
 
 
-def _names(text: str) -> frozenset[str]:
-    return frozenset(name.strip() for name in text.replace("\n", " ").split("|"))
+def _cards(group: str) -> dict[str, str]:
+    """Cards of a group of `cards.txt`: name → what is said of it."""
+    out = {}
+    for block in Path(__file__).with_name("cards.txt").read_text(encoding="utf-8").split("\n\n")[1:]:
+        head, _, names = block.partition("\n")
+        kind, _, sentence = head.partition(":")
+        if kind == group:
+            out |= dict.fromkeys((" ".join(name.split()) for name in names.split("|")), sentence.strip())
+    return out
 
 
-USED: Final = _names(
-    "COUPLING|ELASTIC|ELEMENT|ELSET|INCLUDE|INITIAL CONDITIONS|INSTANCE|KINEMATIC|MATERIAL|NODAL THICKNESS|NODE|NORMAL|NSET|ORIENTATION|"
-    "RIGID BODY|SHELL SECTION|SOLID SECTION|STEP"
-)
-WITHOUT_INFLUENCE: Final = _names(
-    # of CalculiX
-    """AMPLITUDE|BASE MOTION|BEAM GENERAL SECTION|BEAM SECTION|BOUNDARY|BOUNDARYF|BUCKLE|CFD|CFLUX|CHANGE CONTACT TYPE|CHANGE FRICTION|
-    CHANGE SURFACE BEHAVIOR|CLEARANCE|CLOAD|COMPLEX FREQUENCY|CONDUCTIVITY|CONSTRAINT|CONTACT DAMPING|CONTACT FILE|CONTACT OUTPUT|
-    CONTACT PAIR|CONTACT PRINT|CONTROLS|CORRELATION LENGTH|COUPLED TEMPERATURE-DISPLACEMENT|CRACK PROPAGATION|DAMPING|DASHPOT|DENSITY|
-    DEPVAR|DESIGN RESPONSE|DESIGN VARIABLES|DFLUX|DISTRIBUTING|DISTRIBUTING COUPLING|DISTRIBUTION TABLE|DLOAD|DSLOAD|DYNAMIC|
-    ELECTRICAL CONDUCTIVITY|ELECTROMAGNETICS|ELEMENT OUTPUT|EL FILE|EL PRINT|END STEP|EQUATION|EXPANSION|FEASIBLE DIRECTION|FILM|FILTER|
-    FLUID CONSTANTS|FLUID SECTION|FREQUENCY|FRICTION|GAP|GAP CONDUCTANCE|GAP HEAT GENERATION|GEOMETRIC CONSTRAINT|GEOMETRIC TOLERANCE|
-    GREEN|HCF|HEADING|HEAT TRANSFER|MAGNETIC PERMEABILITY|MASS|MASS FLOW|MATRIX ASSEMBLE|MEMBRANE SECTION|MODAL DAMPING|MODAL DYNAMIC|
-    MPC|NETWORK MPC|NO ANALYSIS|NODE FILE|NODE OUTPUT|NODE PRINT|OBJECTIVE|OUTPUT|PHYSICAL CONSTANTS|RADIATE|RANDOM FIELD|RESTART|
-    RETAINED NODAL DOFS|ROBUST DESIGN|SECTION PRINT|SENSITIVITY|SPECIFIC GAS CONSTANT|SPECIFIC HEAT|SPRING|STATIC|STEADY STATE DYNAMICS|
-    SUBSTRUCTURE GENERATE|SUBSTRUCTURE MATRIX OUTPUT|SURFACE|SURFACE BEHAVIOR|SURFACE INTERACTION|TIE|TIME POINTS|
-    UNCOUPLED TEMPERATURE-DISPLACEMENT|USER SECTION|VALUES AT INFINITY|VIEWFACTOR|VISCO"""
-) | _names(
-    # of Abaqus alone
-    """ASSEMBLY|BULK VISCOSITY|CONNECTOR BEHAVIOR|CONNECTOR ELASTICITY|CONNECTOR SECTION|CONTACT|CONTACT CONTROLS|CONTACT INCLUSIONS|
-    CONTACT INITIALIZATION ASSIGNMENT|CONTACT PROPERTY ASSIGNMENT|CONTACT STABILIZATION|DIAGNOSTICS|ELEMENT MATRIX OUTPUT|
-    EMBEDDED ELEMENT|END ASSEMBLY|END INSTANCE|END LOAD CASE|END PART|ENERGY OUTPUT|FASTENER|FASTENER PROPERTY|FILE FORMAT|
-    HOURGLASS STIFFNESS|INERTIA RELIEF|KINEMATIC COUPLING|LOAD CASE|MATRIX GENERATE|MATRIX OUTPUT|MONITOR|NONSTRUCTURAL MASS|PART|
-    PREPRINT|PRINT|RETAINED EIGENMODES|ROTARY INERTIA|SECTION CONTROLS|SELECT EIGENMODES|SHELL TO SOLID COUPLING|SURFACE SMOOTHING|
-    TRANSVERSE SHEAR STIFFNESS"""
-)
-NO_STRESS: Final = dict.fromkeys(
-    _names(
-        """CREEP|CYCLIC HARDENING|DAMAGE INITIATION|DEFORMATION PLASTICITY|HYPERELASTIC|HYPERFOAM|HYPOELASTIC|MOHR COULOMB|
-        MOHR COULOMB HARDENING|NO COMPRESSION|NO TENSION|PLASTIC|POROUS ELASTIC|RATE DEPENDENT|USER MATERIAL|VISCOELASTIC"""
-    ),
-    "is no linear elasticity",
-) | {
-    "CHANGE MATERIAL": "changes a material",
-    "CHANGE PLASTIC": "changes a material",
-    "CHANGE SOLID SECTION": "changes a section",
-    "DISTRIBUTION": "gives axes or thicknesses element by element, and is not followed",
-    "INITIAL STRAIN INCREASE": "adds strains",
-    "PRE-TENSION SECTION": "adds a load inside of the body",
-    "TEMPERATURE": "changes temperatures in a step; give those of the matrices by `*INITIAL CONDITIONS, TYPE=TEMPERATURE`",
-    "USER ELEMENT": "has elements of its own",
-}  # why stress is not known where a deck has the card
-REFUSED: Final = {
-    "CYCLIC SYMMETRY MODEL": "the matrices are those of a sector; write them of the whole body",
-    "SELECT CYCLIC SYMMETRY MODES": "the matrices are those of a sector; write them of the whole body",
-    "INITIAL MESH": "the mesh is another one than that of the deck; write the deck of the mesh that was computed",
-    "MODEL CHANGE": "elements come and go; write a deck of the elements that are there",
-    "REFINE MESH": "the mesh is another one than that of the deck; write the deck of the mesh that was computed",
-    "USE REFINED MESH": "the mesh is another one than that of the deck; write the deck of the mesh that was computed",
-    "SUBMODEL": "the model hangs on another one; write the matrices of a body that nothing holds",
-    "TRANSFORM": "rows of nodes may be along axes of their own; remove it, also where the matrices are written",
-    "TRANSFORMF": "rows of nodes may be along axes of their own; remove it, also where the matrices are written",
-    "SYSTEM": "nodes are in axes of their own; write them in global ones",
-    **dict.fromkeys(
-        ("ELCOPY", "ELGEN", "NCOPY", "NFILL", "NGEN", "NMAP"),
-        "nodes and elements are made by rules; write them one by one",
-    ),
-}
+USED, WITHOUT_INFLUENCE = frozenset(_cards("used")), frozenset(_cards("without influence"))
+NO_STRESS, REFUSED = _cards("no stress"), _cards("refused")  # with why
 # names by how CalculiX reads them: without blanks
 CARDS: Final = {name.replace(" ", ""): name for name in (*USED, *WITHOUT_INFLUENCE, *NO_STRESS, *REFUSED)}
 

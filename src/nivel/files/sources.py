@@ -13,39 +13,26 @@ from nivel.files.tree import Path, Tree
 from nivel.lazy import dataclass, field, replace
 from nivel.machine.units.quantity import shown
 
-_BEGINNINGS: Final[tuple[tuple[bytes, str], ...]] = (
+_COLUMN: Final = ", not a machine file; a machine reads a {}: `{{{{csv: {{file}}, column: {}}}}}`"
+_BEGINNINGS: Final[dict[tuple[bytes, ...], str]] = {
     (
         b"\x89HDF\r\n",
-        "this is a result, not a machine file: `nivel view {file}` plays it, `nivel explain {file}` says how far it can be trusted; "
-        "the machine that made it is the file that was run",
-    ),
-    (b"CDF\x01", "this is a NetCDF-3 file, not a machine file"),
-    (b"CDF\x02", "this is a NetCDF-3 file, not a machine file"),
-    (b"<!doctype html", "this is a page for a browser, such as a report of nivel, not a machine file"),
-    (b"<html", "this is a page for a browser, such as a report of nivel, not a machine file"),
+    ): "this is a result, not a machine file: `nivel view {file}` plays it, `nivel explain {file}` says how far it can be "
+    "trusted; the machine that made it is the file that was run",
+    (b"CDF\x01", b"CDF\x02"): "this is a NetCDF-3 file, not a machine file",
+    (b"<!doctype html", b"<html"): "this is a page for a browser, such as a report of nivel, not a machine file",
+    (b"par1",): f"this is a table (Parquet){_COLUMN.format('column', 'NAME')}",
+    (b"matlab 5.0",): f"this is a table (MAT){_COLUMN.format('column', 'NAME')}",
+    (b"mdf     ",): f"this is a recording (MDF){_COLUMN.format('signal', 'NAME')}",
+    (b"\x89MCAP0\r\n",): f"this is a recording (MCAP){_COLUMN.format('signal', '/TOPIC.FIELD')}",
+    (b"PK\x03\x04",): "this is a zip file, not a machine file",
     (
-        b"par1",
-        "this is a table (Parquet), not a machine file; a machine reads a column: `{{csv: {file}, column: NAME}}`",
-    ),
-    (
-        b"matlab 5.0",
-        "this is a table (MAT), not a machine file; a machine reads a column: `{{csv: {file}, column: NAME}}`",
-    ),
-    (
-        b"mdf     ",
-        "this is a recording (MDF), not a machine file; a machine reads a signal: `{{csv: {file}, column: NAME}}`",
-    ),
-    (
-        b"\x89MCAP0\r\n",
-        "this is a recording (MCAP), not a machine file; a machine reads a signal: `{{csv: {file}, column: /TOPIC.FIELD}}`",
-    ),
-    (b"PK\x03\x04", "this is a zip file, not a machine file"),
-    (b"solid ", "this is a mesh (STL), not a machine file; a body refers to it: `shape: {{type: mesh, file: {file}}}`"),
+        b"solid ",
+    ): "this is a mesh (STL), not a machine file; a body refers to it: `shape: {{type: mesh, file: {file}}}`",
     (
         b"iso-10303-21",
-        "this is a CAD file (STEP), not a machine file; `nivel import {file} --out machine.yaml` makes bodies of its solids",
-    ),
-)
+    ): "this is a CAD file (STEP), not a machine file; `nivel import {file} --out machine.yaml` makes bodies of its solids",
+}
 _ROOTS: Final[tuple[tuple[bytes, str], ...]] = (
     (b"<robot", "URDF"),
     (b"<mujoco", "MuJoCo"),
@@ -59,8 +46,8 @@ def foreign_content(content: bytes) -> str:
     """What the file with this `content` is, and what to do, with `{file}` for its name; empty where it may be a machine file."""
     start = content[:_LOOKED_AT]
     text = start.removeprefix(b"\xef\xbb\xbf").lstrip().lower()
-    for beginning, answer in _BEGINNINGS:
-        if start.startswith(beginning) or text.startswith(beginning):
+    for beginnings, answer in _BEGINNINGS.items():
+        if start.startswith(beginnings) or text.startswith(beginnings):
             return answer
     if text.startswith(b"<"):
         for root, name in _ROOTS:

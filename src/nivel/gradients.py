@@ -10,14 +10,13 @@ from collections.abc import Callable, Sequence
 from typing import Any, Unpack
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from nivel.api import Machine
 from nivel.errors import Fault, ModelError
 from nivel.extras import needed
+from nivel.machine.core.vectors import Array
 from nivel.settings import RunSettingsDict
-
-Array = NDArray[np.float64]
 
 
 def value_and_gradient(

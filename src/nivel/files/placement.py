@@ -20,7 +20,7 @@ from functools import cached_property
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from nivel.elements.beams.beam import Beam
 from nivel.elements.joints import JOINTS
@@ -37,9 +37,9 @@ from nivel.machine.core.orientation import (
 )
 from nivel.machine.core.placement import marker_frame, placement
 from nivel.machine.core.record import GROUND, Record
+from nivel.machine.core.vectors import Array
 from nivel.machine.laws.time_function import TimeFunction
 
-Array = NDArray[np.float64]
 Triple = tuple[float, float, float]
 
 AXIAL_Z: Final = (1.0, 1.0, -1.0)

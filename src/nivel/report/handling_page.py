@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 from nivel.report.page import page
 from nivel.report.plots import Line, curves, path_drawing
 from nivel.results.result import Result
 
-Array = NDArray[np.float64]
 Numbers = dict[str, tuple[float, str]]  # value and unit by name
 G = 9.80665
 SETTLED = 0.02  # change of a state in half a second, up to which it is steady

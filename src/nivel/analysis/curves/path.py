@@ -20,7 +20,7 @@ from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import LEAST, PARTS
 from nivel.lazy import dataclass, scipy
 from nivel.machine.control.part import VALUE
-from nivel.machine.core.vectors import cross
+from nivel.machine.core.vectors import Array, cross
 from nivel.machine.laws.functions import functions_of
 from nivel.machine.laws.symbols import Symbol, UnknownSymbolError, find_symbol
 from nivel.machine.machine_record import MachineRecord
@@ -31,7 +31,6 @@ from nivel.results.result import Result
 from nivel.results.scales import rotated
 from nivel.system.laws.program import PlacedProgram
 
-Array = NDArray[np.float64]
 AXES = {"x": 0, "y": 1, "z": 2}
 # Steps that are looked at; of more, blocks all along the run.
 MOST_STEPS = 200_000

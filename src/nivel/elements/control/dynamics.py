@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import BeforeValidator
 
 from nivel.elements.control.blocks import OfInput, refuse_order
@@ -18,12 +17,11 @@ from nivel.machine.control.block import Block, Input, Matrix, Number, Numbers, P
 from nivel.machine.control.part import VALUE, Part, bounded_rate, limited
 from nivel.machine.core.checked import Problem
 from nivel.machine.core.record import entry
+from nivel.machine.core.vectors import Array
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.laws.time_function import ManyFunctions
 from nivel.machine.units.formula import linear
 from nivel.machine.units.quantity import Duration, Quantity, listed
-
-Array = NDArray[np.float64]
 
 
 class LinearSystem(NamedTuple):

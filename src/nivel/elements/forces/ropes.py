@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import BeforeValidator
 
 from nivel.elements.forces import heavy_ropes, wound_ropes
@@ -28,11 +27,11 @@ from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Damping, NotNegativeNumber, PositiveNumber, Stiffness
 from nivel.machine.core.element import Acts, Inequalities
 from nivel.machine.core.marker import Marker
+from nivel.machine.core.vectors import Array
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Direction, Length, PositiveLength, Quantity, Velocity, listed
 
-Array = NDArray[np.float64]
 MassPerLength = Annotated[OneNumber, Quantity("mass per length", positive=True)]
 Speed = Annotated[OneFunction, varying("velocity")]
 

@@ -10,11 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from nivel.kernels.bodies.coordinate import ROTATION, TRANSLATION
 from nivel.lazy import dataclass, field
+from nivel.machine.core.vectors import Array
 
 if TYPE_CHECKING:
     from nivel.elements.joints.joint import Joint
@@ -23,7 +21,6 @@ if TYPE_CHECKING:
     # of the joint and the cosine of the angle between its z axes as placed
     Factor = float | Callable[[Joint, float], float]
 
-Array = NDArray[np.float64]
 AXES: Final = {"x": 0, "y": 1, "z": 2}
 # From which marker to which: first to second, second to first, from the slot, a third marker, on the second body, to the first, from
 # the first to the nodes of a beam, or from the plane to the wheel.

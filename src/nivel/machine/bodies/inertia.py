@@ -10,18 +10,16 @@ from collections.abc import Mapping
 from typing import Annotated, Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import BeforeValidator, ValidationInfo
 
 from nivel.known import Body
 from nivel.lazy import dataclass
 from nivel.machine.bodies.solids import centroid, squared_gyration, volume
 from nivel.machine.core.record import Record
+from nivel.machine.core.vectors import Array
 from nivel.machine.given import Field, Given, SomeNumbers, SomeRows
 from nivel.machine.units.quantity import InertiaComponent, fault, listed, parameters_of, read_quantity, reported, shown
 from nivel.machine.units.tree import ExpressionError, FaultyParameterError
-
-Array = NDArray[np.float64]
 
 # Moments of a thin plate obey I_z = I_x + I_y exactly; printed with three digits they may break it by half a percent.
 TRIANGLE_TOLERANCE: Final = 5e-3

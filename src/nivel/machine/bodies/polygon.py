@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 NEAR = 1e-12  # of the size of a polygon: corners and areas below it are nothing
 
 

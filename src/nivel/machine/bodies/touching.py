@@ -5,13 +5,12 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.known import Body, Marker, Shape
 from nivel.lazy import dataclass, field
 from nivel.machine.core.placement import marker_frame
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 HULLS: Final = ("box", "cylinder", "extrusion", "mesh")  # that touch each other, with their convex hulls
 ROUND: Final = ("sphere", "capsule", "ellipsoid")  # that touch everything at the nearest points
 SHAPES_ON_PLANE: Final = (*ROUND, *HULLS)

@@ -9,15 +9,12 @@ from __future__ import annotations
 from typing import Annotated, Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import BeforeValidator, model_validator
 
 from nivel.machine.core.record import Record, unknown_word
-from nivel.machine.core.vectors import cross
+from nivel.machine.core.vectors import Array, cross
 from nivel.machine.given import Field, FourNumbers, Maybe, ThreeNumbers, ThreeRows
 from nivel.machine.units.quantity import Angle, Direction, Scalar, fault, listed, shown
-
-Array = NDArray[np.float64]
 
 SEQUENCES: Final = ("xyx", "xyz", "xzx", "xzy", "yxy", "yxz", "yzx", "yzy", "zxy", "zxz", "zyx", "zyz")
 TOLERANCE: Final = 1e-3  # data printed with three digits are taken, and made exact

@@ -5,14 +5,12 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from nivel.known import Body, Marker
 from nivel.machine.bodies.shape import Standing
 from nivel.machine.core import orientation
-from nivel.machine.core.vectors import cross
-
-Array = NDArray[np.float64]
+from nivel.machine.core.vectors import Array, cross
 
 VERTICAL: Final = 1e-3  # [rad] a bar closer than this to ±Z takes its z axis from global Y
 PARALLEL: Final = 1e-3  # [rad] two axes closer than this define no plane

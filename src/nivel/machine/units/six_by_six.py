@@ -6,14 +6,13 @@ from collections.abc import Iterator
 from typing import Annotated, Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import PlainSerializer, PlainValidator, ValidationError, ValidationInfo, WithJsonSchema
 from pydantic_core import InitErrorDetails
 
+from nivel.machine.core.vectors import Array
 from nivel.machine.units import quantity
 from nivel.machine.units.tree import ExpressionError, FaultyParameterError
 
-Array = NDArray[np.float64]
 Diagonal = tuple[float, ...]
 Matrix = tuple[tuple[float, ...], ...]
 Kinds = tuple[quantity.Kind, quantity.Kind, quantity.Kind]

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import nivel
-from nivel.demos.catalogue import demo_file
+from nivel.demos import demo_file
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 STEPS, ROUNDS = 1000, 8

@@ -171,7 +171,7 @@ def crane_at_work() -> str:
     """A page on which the loader crane of `nivel demo` works, as its levers move."""
     import nivel
     from nivel import Table
-    from nivel.demos.catalogue import demo_file
+    from nivel.demos import demo_file
     from nivel.view.page import scene_html
 
     machine = nivel.load(demo_file("loader-crane")).with_settings({"duration": AT_WORK})

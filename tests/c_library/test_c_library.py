@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import nivel
-from nivel.demos.catalogue import demo_file
+from nivel.demos import demo_file
 from nivel.results.frames.csv_table import columns
 from patience import PATIENCE
 

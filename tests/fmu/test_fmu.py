@@ -21,7 +21,7 @@ from fmu_host import DISCARD, ERROR, OK, Unit
 from needing import needs
 from nivel.analysis.plan.compilation import run_entries
 from nivel.cli import main
-from nivel.demos.catalogue import demo_file
+from nivel.demos import demo_file
 from nivel.fmu.description import base_unit
 from nivel.native import library, shipped
 from nivel.native.sources import fingerprint

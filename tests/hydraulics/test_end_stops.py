@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 import nivel
 from circuits import BAR, PA, density, history
 from lanes import tail
-from nivel.demos.catalogue import demo_file
+from nivel.demos import demo_file
 from simulating import machine
 
 pytestmark = pytest.mark.covering

@@ -5,7 +5,7 @@ import pytest
 
 import nivel
 from nivel import Table
-from nivel.demos.catalogue import DEMOS, FOLDER, demo_file
+from nivel.demos import DEMOS, FOLDER, demo_file
 from nivel.live.preparation import live_plan
 from nivel.live.recording import Recording, Take
 from nivel.live.replay import replay

@@ -9,7 +9,7 @@ import pytest
 import cart
 import nivel
 from browsing import served, until, watched
-from nivel.demos.catalogue import demo_file
+from nivel.demos import demo_file
 from nivel.integrate.loop.paced import DONE
 from nivel.live.opening import session_of
 from nivel.live.picture import gauges

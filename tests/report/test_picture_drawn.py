@@ -7,7 +7,7 @@ import pytest
 
 import nivel
 from example_files import EXAMPLES
-from nivel.demos.catalogue import demo_file
+from nivel.demos import demo_file
 from nivel.looks.poses import upwards
 from nivel.report.picture import machine_picture
 

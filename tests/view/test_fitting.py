@@ -5,7 +5,7 @@ import pytest
 import nivel
 from browsing import drawn, until, watched
 from nivel import Table
-from nivel.demos.catalogue import demo_file
+from nivel.demos import demo_file
 from nivel.view.page import write_scene
 
 MOMENTS = (0.0, 1.0, 2.0)

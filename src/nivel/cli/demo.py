@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from nivel.demos.catalogue import DEMOS, demo_file
+from nivel.demos import DEMOS, demo_file
 from nivel.lazy import nivel
 
 

@@ -53,21 +53,20 @@ def command(machine: str, overrides: dict[str, str], only: tuple[str, ...] | Non
     loaded = nivel.api.load(machine, overrides)
     for name in only or ():
         if name not in MANOEUVRES:
-            known = ", ".join(MANOEUVRES)
-            raise ModelError(Fault.at("handling.only", f"one of {known} was expected, got `{name}`"))
+            raise ModelError(Fault.at("handling.only", f"one of {', '.join(MANOEUVRES)} was expected, got `{name}`"))
     page = Path(out or f"{loaded.name}-handling.html")
     nivel.files.target.check_target(page, "page", force=force, sources=[Path(machine)])
     found = {}
-    with progress_listener(quiet) as listener:
-        for name in only or MANOEUVRES:
-            found[name] = drive(loaded, name, width, listener)
-    nivel.files.target.write_file(page, "page", nivel.report.handling_page.handling_html(loaded.name, found))
+    try:
+        with progress_listener(quiet) as listener:
+            for name in only or MANOEUVRES:
+                found[name] = drive(loaded, name, width, listener)
+    finally:  # what was driven before one that fails is kept
+        if found:
+            nivel.files.target.write_file(page, "page", nivel.report.handling_page.handling_html(loaded.name, found))
     if as_json:
-        click.echo(
-            json.dumps(
-                {name: {what: value for what, (value, _) in each[1].items()} for name, each in found.items()}, indent=2
-            )
-        )
+        told = {name: {what: value for what, (value, _) in each[1].items()} for name, each in found.items()}
+        click.echo(json.dumps(told, indent=2))
     elif not quiet:
         for name, (_, numbers, trust) in found.items():
             click.echo(f"{name} (trust: {trust})")
@@ -80,10 +79,8 @@ def drive(machine: Machine, name: str, width: float = 1.8, listener: Any = None)
     """A manoeuvre: its histories, its numbers, and the verdict on the run. Raises ModelError where nobody drives."""
     drivers = cast("list[VehicleDriver]", [each for each in machine.record.control if each.type == "vehicle-driver"])
     if len(drivers) != 1 or drivers[0].course is None:
-        message = (
-            "a control with one block `vehicle-driver` and its `course` was expected: who steers and holds the speed"
-        )
-        raise ModelError(Fault.at("control", message))
+        wanted = "a control with one block `vehicle-driver` and its `course`, who steers and holds the speed"
+        raise ModelError(Fault.at("control", f"{wanted}, was expected"))
     bodies = machine.record.bodies
     chassis = max(range(len(bodies)), key=lambda k: bodies[k].mass or 0.0)
     speed = math.hypot(*bodies[chassis].velocity)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from functools import cache
+from importlib import import_module
 from typing import Any
 
 import click
@@ -84,11 +85,16 @@ def kind_of(record: Any) -> str:
 
 def _records(annotation: Any) -> Iterator[type]:
     """The record classes in a type."""
+    from nivel.elements.kind import RecordAt
     from nivel.machine.core.record import Record
 
     if isinstance(annotation, type) and issubclass(annotation, Record):
         yield annotation
         return
+    for each in getattr(annotation, "__metadata__", ()):
+        if isinstance(each, RecordAt):  # of a section that few machines have
+            module, _, name = each.place.partition(":")
+            yield from _records(getattr(import_module(module), name))
     for each in getattr(annotation, "__args__", ()):
         yield from _records(each)
 

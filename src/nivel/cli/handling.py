@@ -41,7 +41,7 @@ Made = tuple["Machine", Callable[["Manoeuvre"], "Numbers"]]
 @click.option("--width", default=1.8, show_default=True, help="Width of the vehicle [m], for the lanes of lane-change.")
 @click.option("--out", type=click.Path(dir_okay=False), help="Page; default: MACHINE-handling.html.")
 @click.option("--force", is_flag=True, help="Overwrite the page.")
-@click.option("--quiet", is_flag=True, help="Print nothing but faults.")
+@click.option("--quiet", is_flag=True, help="Print only faults.")
 @json_option
 def command(machine: str, overrides: dict[str, str], only: tuple[str, ...] | None, width: float, out: str | None, force: bool, quiet: bool,
             as_json: bool) -> None:  # fmt: skip

@@ -172,11 +172,11 @@ class RecordAt:
     """Annotation of what is a record, or one of some, of the class at `module:name`, which is imported when the first one is read."""
 
     def __init__(self, place: str) -> None:
-        self._place = place
+        self.place = place
 
     @cached_property
     def _reader(self) -> TypeAdapter[Any]:
-        module, _, name = self._place.partition(":")
+        module, _, name = self.place.partition(":")
         return TypeAdapter(getattr(import_module(module), name))
 
     def read(self, value: Any, info: ValidationInfo) -> Any:
@@ -187,7 +187,7 @@ class RecordAt:
         return core_schema.with_info_plain_validator_function(self.read)
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        found: Any = {**self._reader.core_schema, "ref": (ref := f"{self._place.replace(':', '.')}:0")}
+        found: Any = {**self._reader.core_schema, "ref": (ref := f"{self.place.replace(':', '.')}:0")}
         if found["type"].startswith("function"):  # of one class, whose definition is told once
             return handler(core_schema.definitions_schema(core_schema.definition_reference_schema(ref), [found]))
         return handler(self._reader.core_schema)

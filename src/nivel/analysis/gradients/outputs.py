@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError, refuse
 from nivel.lazy import dataclass
-from nivel.machine import study
-from nivel.machine.study.output import said_output
+from nivel.machine.study import output as study
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import Quantity
 from nivel.model import Model
@@ -173,7 +172,7 @@ def outputs_of(labels: Sequence[str], result: Result, *, curves: bool = False) -
 
 
 def _output(label: str, result: Result, curves: bool) -> Output:
-    said = said_output(label)
+    said = study.said_output(label)
     if isinstance(said, study.EventTime):
         return Output(label, said.event, is_event=True)
     name: str = getattr(said, "of", "")

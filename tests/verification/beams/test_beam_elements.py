@@ -11,6 +11,7 @@ from beams import disturb, flying, forces, general, hinged, prepared, trust
 from nivel.analysis.assembly import implicit
 from nivel.elements.beams.beam import Beam
 from nivel.elements.beams.exact import masses_of
+from nivel.system import beam_tables
 from simulating import simulate
 
 pytestmark = pytest.mark.covering
@@ -21,7 +22,7 @@ ORDERS = (1, 2, 3)
 def tangent(sections, coordinates, monkeypatch, by_hand):
     with monkeypatch.context() as patch:
         if not by_hand:
-            patch.setattr(implicit, "has_elastic_beams", lambda record: False)
+            patch.setattr(beam_tables, "has_elastic_beams", lambda record: False)
         ready = prepared(sections, coordinates)
     disturb(ready.motion, ready.start, seed=3)
     status, matrix = implicit.find_tangent(ready.motion, 0.0, 0.3, 0.7, 0.5)

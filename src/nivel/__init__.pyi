@@ -62,3 +62,4 @@ from nivel.results.result import Result as Result
 from nivel.studies import load_study as load_study
 
 __version__: str
+__all__: list[str]

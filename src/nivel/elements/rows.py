@@ -85,7 +85,7 @@ class Layout(ModuleType):
             setattr(self, field.upper(), place)
             places[kind == "int"] = place + 1 if several is None else several.places and place + several.places
             self._fields[field] = kind == "int", several, default if several is None else several.default
-        self.places = places[False]
+        self.row_length = places[False]
         self.several = {
             field: several.places for field, (_, several, _) in self._fields.items() if several and several.places
         }
@@ -127,7 +127,7 @@ if TYPE_CHECKING:
         columns: ClassVar[list[int]]
         numbers: ClassVar[list[float]]
         several: ClassVar[dict[str, int]]  # how many places a field has
-        places: ClassVar[int]  # of numbers
+        row_length: ClassVar[int]  # of numbers
 
         @classmethod
         def of(cls, record: object, **values: Any) -> Self: ...

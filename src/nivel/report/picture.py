@@ -128,11 +128,11 @@ def _drawing(scene: dict[str, Any], poses: dict[str, Pose], frame: Frame, touche
     few = solids.FEW_FACETS if count <= VERY_MANY_BODIES else solids.FEWEST_FACETS
     facets = solids.FACETS if count <= MANY_BODIES else few
     swept, places = swept_bodies(scene), {body["name"]: k for k, body in enumerate(scene["bodies"])}
-    for sweep in scene.get(
-        "sweeps", []
-    ):  # one solid through the frames of bodies in a row, with its name at the middle one
+    # one solid through the frames of bodies in a row, with its name at the middle one
+    for sweep in scene.get("sweeps", []):
         at, colour = poses[sweep["bodies"][len(sweep["bodies"]) // 2]], solids.colour_of(places[sweep["bodies"][0]])
-        drawing.labels.append(Label(sweep["name"], *frame.pixels(in_space(at, [0.0, 0.0, 0.0])[0]), "body"))
+        x, y = frame.pixels(in_space(at, [0.0, 0.0, 0.0])[0])
+        drawing.labels.append(Label(sweep["name"], x, y, "body"))
         _draw_solid(drawing, frame, sweep_faces(sweep, poses), (np.zeros(3), np.eye(3)), colour)
     for k, body in enumerate(scene["bodies"]):
         if body["name"] not in swept:

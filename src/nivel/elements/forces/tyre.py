@@ -310,7 +310,7 @@ class TyreRow(Row):
     across: Sequence[float] = several(10)
     trail: Sequence[float] = several(6)
     is_magic: float = 0.0
-    magic: Sequence[float] = several(Magic.places, default=(0.0,) * Magic.places)
+    magic: Sequence[float] = several(Magic.row_length, default=(0.0,) * Magic.row_length)
     heights: Sequence[float] = several(default=())
 
 
@@ -427,7 +427,7 @@ def magic_fluidities(n, load, v_t, v_x, v, z, forward, tilt):
 
     v_t, v, z : as of `fluidities`; v_x : speed of the contact point along x, by which slips are; forward : 1 or -1, the sense of it.
     """
-    p = n[TyreRow.MAGIC : TyreRow.MAGIC + Magic.places]
+    p = n[TyreRow.MAGIC : TyreRow.MAGIC + Magic.row_length]
     speed = root(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
     scale = maximum(v_x, speed / MOST_SLIP)
     kappa, tangent, side = 0.0 * speed, 0.0 * speed, p[Magic.SIGN] * forward
@@ -444,7 +444,7 @@ def magic_fluidities(n, load, v_t, v_x, v, z, forward, tilt):
 @leaf
 def magic_moments(n, load, moments, fx, fy, forward, tilt, speed):
     """(M_z, M_x, -M_y) of a Magic Formula, of forces in the sense in which the wheel rolls."""
-    p = n[TyreRow.MAGIC : TyreRow.MAGIC + Magic.places]
+    p = n[TyreRow.MAGIC : TyreRow.MAGIC + Magic.row_length]
     sign = p[Magic.SIGN]
     fy, tilt = sign * fy, sign * forward * tilt
     about = moments[2] - moments[1] * (fy - moments[0]) + lever(p, load, fy, tilt) * fx
@@ -682,7 +682,7 @@ def add_tyre(builder: SystemBuilder, force: Tyre) -> None:
         for word, text in words
     ]
     first = add_outputs(builder, force)
-    formula = [0.0] * Magic.places
+    formula = [0.0] * Magic.row_length
     if force.magic is not None:
         formula = magic_formula.numbers_of(force.magic, force.pressure, force.side)
         vertical *= 1.0 + formula[Magic.PRESSED]

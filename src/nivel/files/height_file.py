@@ -28,13 +28,8 @@ from nivel.machine.units.quantity import shown
 HEIGHTS: Final = "heights"
 PNG: Final = b"\x89PNG\r\n\x1a\n"
 CHANNELS: Final = {0: 1, 2: 3, 4: 2, 6: 4}  # by the type of colour
-# types that name a set, and keys of `ground` that they do not have
-NAMING: Final[dict[str, tuple[str, ...]]] = {
-    "tyre": ("soil",),
-    "contact": ("grip", "soil"),
-    "blade": ("grip",),
-    "soil-wheel": ("grip",),
-}
+# keys of `ground` that contacts do not have
+OF_TYRES: Final = ("grip",)
 
 
 def spread_sets(tree: Tree) -> None:
@@ -44,7 +39,7 @@ def spread_sets(tree: Tree) -> None:
         tree.data.pop(section, None)
         known: set[str] = set()
         for name, force in section_of(tree, "forces").items():
-            if not isinstance(force, dict) or key not in force or force.get("type") not in NAMING:
+            if not isinstance(force, dict) or key not in force or force.get("type") not in ("tyre", "contact"):
                 continue
             named = force.pop(key)
             if not isinstance(named, str) or named not in sets:
@@ -62,7 +57,7 @@ def _spread(tree: Tree, keys: dict[str, Any], place: tuple[str, str], name: str,
     """Put the keys of the set at `place` into the force `name`, with where they stand. Returns their paths there."""
     spread: set[Path] = set()
     for word, value in keys.items():
-        if word in force or word in NAMING[force["type"]]:
+        if word in force or (word in OF_TYRES and force.get("type") != "tyre"):
             continue
         force[word] = deepcopy(value)
         tree.copy_places((*place, word), ("forces", name, word))

@@ -36,12 +36,10 @@ def schema() -> dict[str, Any]:
     tyre, contact = (definitions[name] for name in ("Tyre", "Contact"))
     shared = {
         "tyres": {word: each for word, each in tyre["properties"].items() if word not in ("name", "type", "wheel")},
-        "ground": {word: tyre["properties"][word] for word in ("plane", "heights", "grip")}
-        | {"soil": definitions["Blade"]["properties"]["soil"]},
+        "ground": {word: tyre["properties"][word] for word in ("plane", "heights", "grip")},
     }
-    on_soil = [definitions[name] for name in ("Blade", "SoilWheel")]
     for section, key in SETS.items():
-        for force in (tyre,) if section == "tyres" else (tyre, contact, *on_soil):
+        for force in (tyre,) if section == "tyres" else (tyre, contact):
             force["properties"][key] = {"type": "string", "description": f"an entry of `{section}`, whose keys it has"}
     tyre["required"] = ["wheel"]
     named = set()

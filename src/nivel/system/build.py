@@ -8,8 +8,6 @@ from itertools import islice
 
 import numpy as np
 
-from nivel.elements.beams.models import add_beam
-from nivel.elements.contacts import on_soil
 from nivel.elements.forces import FORCES
 from nivel.errors import located
 from nivel.kernels.bodies import rail
@@ -217,7 +215,7 @@ def _watched(builder: SystemBuilder) -> record.Watched:
         held=np.zeros(len(switches)),
         value=np.zeros(count),
         rate=np.zeros(count),
-        followed=np.zeros(5, dtype=np.uint32),
+        followed=np.zeros(3, dtype=np.uint32),
     )
 
 
@@ -240,7 +238,7 @@ def _hooks(builder: SystemBuilder, *, sensors: bool, sampled: bool) -> record.Ho
     if builder.frictions:
         address[record.FRICTION] = friction.apply.address
     if sampled:
-        address[record.SAMPLE] = (on_soil.sample if on_soil.apply in builder.elements.families else sample).address
+        address[record.SAMPLE] = sample.address
     if sensors:
         address[record.SENSE] = sensor.apply.address
     return record.Hooks(address)

@@ -45,8 +45,7 @@ class SystemBuilder:
     inputs : the signal of every input. input_functions : the function of each, in the order of the machine. control : the signal of every
     part of a block by its path.
     behind_signals : what a part that is no state depends on. functions_of : the function of every part.
-    begins : states that begin with what a function gives at the start. sampled : states of elements that are samples, of a function, with
-    their periods [s].
+    samples : states that take what a function gives at an offset [s] and after each period, None: once.
     """
 
     machine: MachineRecord
@@ -68,8 +67,7 @@ class SystemBuilder:
     control: dict[str, Signal] = field(default_factory=dict)
     behind_signals: dict[str, Coupled] = field(default_factory=dict)
     functions_of: dict[str, int] = field(default_factory=dict)
-    begins: list[tuple[int, LinearFunction]] = field(default_factory=list)
-    sampled: list[tuple[int, int, float]] = field(default_factory=list)
+    samples: list[tuple[int, LinearFunction, float | None, float]] = field(default_factory=list)
     _owner: str = ""
     _noting: set[int] = field(default_factory=set)
     _noting_states: set[int] = field(default_factory=set)

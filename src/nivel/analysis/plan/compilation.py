@@ -36,11 +36,9 @@ TANGENT_ENTRIES = "nivel.kernels.residual.tangent_entries"
 FOLLOWED = ("contact", "contacts", "stop")
 LOADS = ("force", "torque")
 DRIVES = ("dc-motor", "servo-motor")
-FORCES_ON_SOIL = ("blade", "soil-wheel")
 MEASURE, FRICTION = "nivel.kernels.bodies.measure", "nivel.kernels.elements.friction"
 SENSOR, WATCH = "nivel.kernels.signals.sensor", "nivel.kernels.signals.watch"
 SAMPLING = "nivel.kernels.signals.functions:sample"
-ON_SOIL, CELLS = "nivel.elements.contacts.on_soil:sample", "nivel.elements.contacts.soil:address_of"
 HEIGHT_WAY = "nivel.elements.contacts.height_way"
 VALUES, BOUNDS = "nivel.kernels.record.program:find_values", "nivel.kernels.record.program_bounds"
 GIVEN_FRICTION, RAIL = "nivel.kernels.residual.friction_residual", "nivel.kernels.bodies.rail"
@@ -62,21 +60,8 @@ COMPLETIONS = tuple(
 )
 
 # all modules that some machines, runs or trees need
-OF_MACHINES = (
-    MEASURE,
-    FRICTION,
-    RAIL,
-    POINTS,
-    SENSOR,
-    WATCH,
-    HEIGHT_WAY,
-    SAMPLING,
-    ON_SOIL,
-    CELLS,
-    OF_BEAMS,
-    GIVEN_FRICTION,
-)
-OF_RUNS = (LOOP, FOLLOWING, PACED, REPEATED, STATICS, TANGENT_ENTRIES, OUTPUT, SHARED_LOADS)
+OF_MACHINES = (MEASURE, FRICTION, RAIL, POINTS, SENSOR, WATCH, HEIGHT_WAY, SAMPLING, OF_BEAMS, GIVEN_FRICTION)
+OF_RUNS = (LOOP, VALUES, BOUNDS, FOLLOWING, PACED, REPEATED, STATICS, TANGENT_ENTRIES, OUTPUT, SHARED_LOADS)
 OF_TREES = (OF_FRAMES, OF_MODES, OF_SLIDERS, PASSING, IMPLICIT_ACCELERATIONS, *COMPLETIONS)
 
 
@@ -323,8 +308,6 @@ def _rare_modules(machine: MachineRecord) -> list[str]:
         SENSOR: bool(machine.sensors),
         SAMPLING: any(state.update is not None for state in machine.states)
         or bool(machine.control or types & {*DRIVES}),
-        ON_SOIL: bool(types & {*FORCES_ON_SOIL}),
-        CELLS: bool(types & {*FORCES_ON_SOIL}),
-        OF_BEAMS: ELASTIC in map(family_of, machine.beams),
+        OF_BEAMS: any(nivel.elements.beams.models.family_of(beam).code.name == ELASTIC for beam in machine.beams),
     }
     return [module for module, asked in needed.items() if asked]

@@ -12,9 +12,6 @@ from nivel.analysis.assembly.implicit import constraint_index
 from nivel.analysis.curves.corners import corners
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.elements.contacts import height_way, heights
-from nivel.elements.contacts.heights import rows_over_heights
-from nivel.elements.contacts.on_soil import rows_on_soil
 from nivel.integrate.explicit.dormand_prince import COUNTS as COUNTS_STIFF
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop import run as of_run
@@ -267,13 +264,12 @@ def _watch(system: System, *, chosen: bool) -> int:
     count = len(watched.event) + (len(watched.surface) + len(watched.switch) if chosen else 0)
     if count:
         system.record.hooks.address[WATCH] = watch.address
-    watched.followed[3:] = rows_on_soil(system.record.elements)
-    first, last = rows_over_heights(system.record.elements)
+    first, last = rows_of(system.record.elements, OVER_HEIGHTS)
     if last > first:
-        watched.followed[1:3] = first, last
-        system.record.hooks.address[WATCH] = height_way.watch.address
-        noted = [heights.MISSED, heights.SEEN]
-        system.record.elements.number[first:last, noted] = 0.0
+        watched.followed[1:] = first, last
+        system.record.hooks.address[WATCH] = nivel.elements.contacts.height_way.watch.address
+        heights = nivel.elements.contacts.heights
+        system.record.elements.number[first:last, [heights.MISSED, heights.SEEN]] = 0.0
     return count
 
 

@@ -9,13 +9,6 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.redundancy import Redundancy
 from nivel.analysis.curves.corners import corners_of
 from nivel.analysis.plan.combinations import screws_as_couplings
-from nivel.elements.contacts.contact import Contact, Contacts
-from nivel.elements.contacts.soil import OnSoil
-from nivel.elements.control.held import Delay
-from nivel.elements.forces.actuators import Stop
-from nivel.elements.forces.drive_lines import TransmissionLoss, holds_by_capacity, is_sticking
-from nivel.elements.forces.friction import Friction
-from nivel.elements.joints.drivers import RATES
 from nivel.errors import Fault
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.known import Contact, Contacts, Delay, Friction, Stop, TransmissionLoss
@@ -101,9 +94,6 @@ def deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array) -> It
 def sampled_times(machine: MachineRecord) -> list[tuple[str, float]]:
     """Periods, offsets and latencies of sampled states and blocks [s] that are not zero, with where they stand."""
     times = [(f"states.{state.name}.every", state.every or 0.0) for state in machine.states]
-    times += [
-        (f"forces.{force.name}.soil.period", force.soil.period) for force in machine.forces if isinstance(force, OnSoil)
-    ]
     times += [
         (f"control.{block.name}.{key}", getattr(block, key) or 0.0)
         for block in machine.control

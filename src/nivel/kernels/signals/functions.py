@@ -7,7 +7,6 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
-from nivel.native.function import stage
 
 # columns of `columns` of inputs and signals; of states, SAMPLED: whether the function is the value after a sample
 OUTPUT, FUNCTION = 0, 1
@@ -51,8 +50,8 @@ def compute(machine, number, t):
     return OK
 
 
-@stage
-def fill_samples(machine, t):
+@family
+def sample(machine, job, t):
     """Fill `sampled.value` where `sampled.due`, from the state last evaluated and the new values of what is sampled at once before.
 
     Signals are computed anew. `elements.state` has the new values of what is sampled at once.
@@ -66,10 +65,4 @@ def fill_samples(machine, t):
             sampled.value[k] = evaluate_function(machine, sampled.function[k], t)
             if sampled.at_once[k] == 1:
                 state[sampled.state[k]] = sampled.value[k]
-
-
-@family
-def sample(machine, job, t):
-    """The hook SAMPLE: see `fill_samples`."""
-    fill_samples(machine, t)
     return OK

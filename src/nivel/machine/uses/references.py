@@ -151,10 +151,6 @@ def _of_force(force: Any, index: Index, place: Place) -> Faults:
         return
     if (wheel := entry(force, "wheel")) is not None:
         yield from _of_wheel(wheel, entry(force, "plane"), index, place)
-    for at, end in enumerate(as_list(entry(force, "edge"))):
-        yield from _of_end(end, index, (*place, "edge", at))
-    if (load := entry(force, "load_at")) is not None:
-        yield from _of_end(load, index, (*place, "load_at"))
     yield from _unknown_body(entry(force, "body"), index, (*place, "body"))
     marker = entry(force, "marker")
     yield from _unknown_marker(marker, index, (*place, "marker"))

@@ -58,7 +58,6 @@ class FunctionTable:
     switches: list[tuple[int, int]] = field(default_factory=list)
     switching: list[Node] = field(default_factory=list)
     units: dict[str, Unit] = field(default_factory=dict)
-    _alone: dict[str, int] = field(default_factory=dict)
 
     def add(
         self,
@@ -112,13 +111,6 @@ class FunctionTable:
                 address = law_address(function, motion=motion)
                 return self._append(CODE, list(function.arguments), find, address=address)
         return self._append(CONSTANT, [], find, value=float(function))
-
-    def add_unit(self, name: str, unit: Unit) -> int:
-        """Index of a new function that calls the law of a unit with the address of its record alone; the same for the same name."""
-        if name not in self.units:
-            self.units[name] = unit
-            self._alone[name] = self._append(CODE, [float(unit.handle.address)], _nothing, address=unit.law.address)
-        return self._alone[name]
 
     def _append_linear(self, function: LinearFunction, find: Find) -> int:
         factors, paths = [factor for factor, _ in function.terms], [path for _, path in function.terms]

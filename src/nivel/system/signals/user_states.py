@@ -78,10 +78,11 @@ def sampled_states(builder: SystemBuilder) -> Sampled:
             function = builder.function(state.update, sampled=True)
         event = NONE if state.event is None else events.index(state.event)
         table.add(builder.state(state.name), function, period=state.every or 0.0, event=event)
-    for state, begins in builder.begins:
-        table.add(state, builder.function(begins, sampled=True), period=ONCE)
-    for state, function, period in builder.sampled:
-        table.add(state, function, period=period)
+    functions: dict[int, int] = {}  # those of several samples
+    for state, function, period, offset in builder.samples:
+        if id(function) not in functions:
+            functions[id(function)] = builder.function(function, sampled=True)
+        table.add(state, functions[id(function)], period=period or ONCE, offset=offset)
     add_samples(builder, table)
     count = len(table.rows)
     state, output, at_once, function, event, period, offset = zip(*table.rows, strict=True) if count else ((),) * 7

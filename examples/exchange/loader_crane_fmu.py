@@ -11,7 +11,7 @@ import fmpy
 import numpy as np
 
 import nivel
-from nivel.demos.catalogue import demo_file
+from nivel.demos import demo_file
 
 STEP, END = 0.005, 1.0  # [s] between two values of the lever, and the end
 

@@ -82,6 +82,15 @@ def test_a_wall_narrower_than_the_samples_of_a_step_is_not_green(tmp_path):
     assert of_text(text, tmp_path).simulate(verify=True, integrator="rk4").trust.verdict == "red"
 
 
+def test_a_force_faster_than_what_a_step_looks_at_is_not_green(tmp_path):
+    """1.6 MHz in steps of 1 ms: bounds of so many periods take longer than the run, and the line says so."""
+    result = of_text(WALL.replace(LOAD, '"sin(1e7*time)*cos(3.1e6*time)"'), tmp_path).simulate(integrator="rk4")
+    assert result.trust.verdict == "red"
+    assert any(
+        "what wall.vector.x may do within a sixteenth of a step" in line.text for line in lines(result, "unexamined")
+    )
+
+
 def test_a_motion_with_narrow_features_does_not_depend_on_chunks():
     record = nivel.load(FAULTS / "t4-wall.yaml").record
     plan = plan_run(record.with_simulation(record.simulation.replace(integrator="dopri5")))

@@ -27,6 +27,7 @@ TEXTS = {
     "colour",
     "parts",
     "function",  # of a place, with what it names put in
+    "coefficients",  # keys of the file of a tyre
 }  # texts that name no element
 
 

@@ -21,12 +21,8 @@ if TYPE_CHECKING:
     from nivel.report.handling_page import Manoeuvre, Numbers
 
 TURN, SMALL = 4.0, 0.2  # [m/s²] of a turn, and of one so small that its tyres are linear
-AT, HOLD, RAMP, BRAKES = (
-    1.0,
-    4.0,
-    20.0,
-    5.0,
-)  # [s] of a step, of a small turn to each side, of the ramp after them; where brakes come
+# [s] of a step, of a small turn to each side, of the ramp after them; where brakes come
+AT, HOLD, RAMP, BRAKES = 1.0, 4.0, 20.0, 5.0
 GRIP, SLOPE = 0.3, 0.15  # of the left side of a split road, and of a slope
 # lengths of ISO 3888-2:2011 from the first gate on: gates and ways between them; the lane beside is 1 m to the left
 LENGTHS: Final = (12.0, 13.5, 11.0, 12.5, 12.0)
@@ -41,10 +37,11 @@ Made = tuple["Machine", Callable[["Manoeuvre"], "Numbers"]]
 @click.option("--width", default=1.8, show_default=True, help="Width of the vehicle [m], for the lanes of lane-change.")
 @click.option("--out", type=click.Path(dir_okay=False), help="Page; default: MACHINE-handling.html.")
 @click.option("--force", is_flag=True, help="Overwrite the page.")
+@click.option("--no-verify", is_flag=True, help="Without second runs.")
 @click.option("--quiet", is_flag=True, help="Print only faults.")
 @json_option
-def command(machine: str, overrides: dict[str, str], only: tuple[str, ...] | None, width: float, out: str | None, force: bool, quiet: bool,
-            as_json: bool) -> None:  # fmt: skip
+def command(machine: str, overrides: dict[str, str], only: tuple[str, ...] | None, width: float, out: str | None, force: bool,
+            no_verify: bool, quiet: bool, as_json: bool) -> None:  # fmt: skip
     """Drive MACHINE through standard manoeuvres: circle (ISO 4138), step (ISO 7401), lane-change (ISO 3888-2), brake-in-turn, split-grip,
     slope.
 
@@ -60,12 +57,15 @@ def command(machine: str, overrides: dict[str, str], only: tuple[str, ...] | Non
     try:
         with progress_listener(quiet) as listener:
             for name in only or MANOEUVRES:
-                found[name] = drive(loaded, name, width, listener)
+                found[name] = drive(loaded, name, width, verify=not no_verify, listener=listener)
     finally:  # what was driven before one that fails is kept
         if found:
             nivel.files.target.write_file(page, "page", nivel.report.handling_page.handling_html(loaded.name, found))
     if as_json:
-        told = {name: {what: value for what, (value, _) in each[1].items()} for name, each in found.items()}
+        told = {
+            name: {what: value for what, (value, _) in numbers.items()} | {"trust": trust}
+            for name, (_, numbers, trust) in found.items()
+        }
         click.echo(json.dumps(told, indent=2))
     elif not quiet:
         for name, (_, numbers, trust) in found.items():
@@ -75,7 +75,9 @@ def command(machine: str, overrides: dict[str, str], only: tuple[str, ...] | Non
         click.echo(f"page: {page}")
 
 
-def drive(machine: Machine, name: str, width: float = 1.8, listener: Any = None) -> tuple[Manoeuvre, Numbers, str]:
+def drive(
+    machine: Machine, name: str, width: float = 1.8, *, verify: bool = True, listener: Any = None
+) -> tuple[Manoeuvre, Numbers, str]:
     """A manoeuvre: its histories, its numbers, and the verdict on the run. Raises ModelError where nobody drives."""
     drivers = cast("list[VehicleDriver]", [each for each in machine.record.control if each.type == "vehicle-driver"])
     if len(drivers) != 1 or drivers[0].course is None:
@@ -85,9 +87,9 @@ def drive(machine: Machine, name: str, width: float = 1.8, listener: Any = None)
     chassis = max(range(len(bodies)), key=lambda k: bodies[k].mass or 0.0)
     speed = math.hypot(*bodies[chassis].velocity)
     made, measured = MANOEUVRES[name](machine, drivers[0], speed, width)
-    run = made.simulate(verify=False, listener=listener)
+    run = made.simulate(verify=verify, listener=listener)
     history = nivel.report.handling_page.Manoeuvre.of(name, run, chassis, drivers[0].name)
-    return history, measured(history), run.trust.verdict
+    return history, measured(history), run.trust.verdict if verify else f"{run.trust.verdict}, not verified"
 
 
 def _open_loop(driver: VehicleDriver, steering: str | float, target: str | float) -> VehicleDriver:

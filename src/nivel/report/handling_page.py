@@ -15,10 +15,7 @@ from nivel.results.result import Result
 Numbers = dict[str, tuple[float, str]]  # value and unit by name
 G = 9.80665
 SETTLED = 0.02  # change of a state in half a second, up to which it is steady
-NOTE = (
-    "x forwards, y to the left; accelerations without gravity, of the origin of the body. "
-    "The trust verdict is that of each run, without a second run."
-)
+NOTE = "x forwards, y to the left; accelerations without gravity, of the origin of the body."
 
 
 @dataclass(frozen=True)

@@ -206,8 +206,8 @@ def rounding_of_times(machine: MachineRecord, duration: float) -> float:
     return share
 
 
-def with_features(curve: Curve, time: Array, values: Array) -> tuple[Array, Array]:
-    """Times and values with more of them where the function has more than was sampled."""
+def with_features(curve: Curve, time: Array, values: Array, share: float = BEYOND) -> tuple[Array, Array]:
+    """Times and values with more of them where the function has more than was sampled, by this share of its range."""
     begin, width = time[:-1], np.diff(time)
     low, high = np.minimum(values[:-1], values[1:]), np.maximum(values[:-1], values[1:])
     for _ in range(HALVINGS):
@@ -215,9 +215,7 @@ def with_features(curve: Curve, time: Array, values: Array) -> tuple[Array, Arra
         if found is None:
             break
         beyond = np.maximum(found[1] - high, low - found[0])
-        floor = max(
-            BEYOND * float(np.ptp(values)), 1e-6 * float(np.max(beyond, initial=0.0, where=np.isfinite(beyond)))
-        )
+        floor = max(share * float(np.ptp(values)), 1e-6 * float(np.max(beyond, initial=0.0, where=np.isfinite(beyond))))
         keep = np.flatnonzero(beyond > floor)
         if len(keep) > MOST_INTERVALS:
             keep = keep[np.argsort(-beyond[keep], kind="stable")[:MOST_INTERVALS]]

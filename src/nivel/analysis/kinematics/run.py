@@ -156,7 +156,7 @@ def hidden(machine: MachineRecord, prepared: Prepared, steps: RunSettings) -> di
         else:
             variable, of = "joint_rate" if driver.value is None else "joint_coordinate", TableCurve(law)
         values = of.values({TIME: time})
-        at, right = with_features(of, time, values)
+        at, right = with_features(of, time, values, TOLD)
         between, inside = curve(time, values), time[:-1] + GOLDEN * np.diff(time)
         place = np.clip(np.searchsorted(time, at)[:, None] + np.arange(-2, 2), 0, len(time) - 1)
         near = values[place]

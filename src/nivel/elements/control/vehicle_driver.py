@@ -1,9 +1,9 @@
 """Driver of a vehicle: steers along a course with preview, or as told, and holds a speed with two pedals.
 
-He looks `preview` seconds ahead along the course, and takes the circle through the place where he is, along his heading, and the place
-that he sees: curvature 2 e/l² for a place at the distance l, e to the left (Wallace et al. 1985; the preview is that of MacAdam 1981). The
-angle is (wheelbase + understeer v²) times that, as of the linear single track. His station on the course is where ṡ = v cos(ψ - ψ_c) + a/τ
-leads, with what the vehicle is ahead of it, a.
+The aim lies `preview` seconds ahead along the course. The vehicle is to take the circle along its heading through its place and the aim:
+curvature 2 e/l² for an aim at the distance l, e to the left (Wallace et al. 1985; the preview is that of MacAdam 1981). The angle is
+(wheelbase + understeer v²) times that, as of the linear single track. The station on the course is where ṡ = v cos(ψ - ψ_c) + a/τ leads,
+with what the vehicle is ahead of it, a.
 """
 
 from __future__ import annotations
@@ -36,19 +36,19 @@ class VehicleDriver(Block):
 
     type: Literal["vehicle-driver"] = "vehicle-driver"
     speed: Input = Field(description="measured speed forwards")
-    target: Input = Field(default=0.0, description="speed that he holds; with none he brakes")
+    target: Input = Field(default=0.0, description="speed to be held; zero or less: the brake is 1")
     gain: PositiveNumber = Field(default=0.5, description="pedal, up to 1, by missing speed, s/m")
     steering: Maybe[Input] = Field(default=None, description="angle of the front wheels, in place of a `course`")
     course: Maybe[Annotated[Matrix, BeforeValidator(list)]] = Field(
-        default=None, description="points `[x, y]` from where he starts, in m; a cubic spline goes through them"
+        default=None, description="points `[x, y]` from the start on, in m; a cubic spline goes through them"
     )
     x: Maybe[Input] = Field(default=None, description="with a `course`: measured place")
     y: Maybe[Input] = Field(default=None, description="with a `course`: measured place")
     heading: Maybe[Input] = Field(default=None, description="with a `course`: measured yaw angle")
     wheelbase: Maybe[PositiveNumber] = Field(default=None, description="with a `course`: distance of the axles")
     understeer: Number = Field(default=0.0, description="steering angle by lateral acceleration, rad s²/m")
-    preview: Duration = Field(default=0.8, description="time that he looks ahead")
-    lag: NotNegativeTime = Field(default=0.0, description="time constant with which he steers along a course")
+    preview: Duration = Field(default=0.8, description="time by which the aim is ahead")
+    lag: NotNegativeTime = Field(default=0.0, description="time constant of the steering along a course")
     limit: PositiveNumber = Field(default=0.6, description="greatest steering angle, rad")
 
     def computation(self) -> tuple[Part, ...]:
@@ -112,7 +112,7 @@ class VehicleDriver(Block):
             yield Problem((), "a driver needs a `course`, points `[x, y]`, or `steering`, an angle; one of them")
         for key in ALONG:
             if self.course is not None and getattr(self, key) is None:
-                yield Problem((), f"`{key}` is missing: a driver along a `course` measures where he is")
+                yield Problem((), f"`{key}` is missing: a driver along a `course` measures place and heading")
             if self.course is None and getattr(self, key) is not None:
                 yield superfluous(key, "belongs to a `course`, and none is given")
         if self.course is not None:

@@ -108,10 +108,10 @@ def test_a_worker_that_dies_is_told(tmp_path):
     code = """
 import os, signal
 from nivel.native import workers
-worker = workers._Worker()
-worker._process.send_signal(signal.SIGKILL)
-workers._Worker.is_alive = True  # it dies as the job comes
-workers._idle.put(worker)
+process = workers.COMPILERS.take()
+process._process.send_signal(signal.SIGKILL)
+workers.Process.is_alive = True  # it dies as the job comes
+workers.COMPILERS.give_back(process)
 import toy_entries
 try:
     toy_entries.fill.address

@@ -53,7 +53,7 @@ def session_of(
             journal = Journal(journal_of(record), about, force=force)
             undone.callback(journal.discard)
         build([*run_entries(plan), drive, *ENTRIES], listener)
-        workers.end_all()
+        workers.COMPILERS.end_all()
         session = Session(plan, pace, urgent=urgent, journal=journal)
         undone.pop_all()
     try:

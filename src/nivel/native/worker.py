@@ -1,4 +1,4 @@
-"""A process that compiles: it reads jobs, one line of JSON each, and answers with one line when the object file is written.
+"""A process that compiles: it answers jobs when their object files are written (`nivel.native.workers`).
 
 A job is the name of an entry and files to write, each for this processor or a named one; or the text of a module whose function `nivel_law`
 is one, and the file to write.
@@ -8,15 +8,13 @@ from __future__ import annotations
 
 import gc
 import hashlib
-import json
-import os
-import signal
 import sys
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 from nivel.native.signature import Signature
+from nivel.native.workers import serve
 
 # objects after a job from which on garbage is collected: some hundred megabytes
 MOST_LEFT = 3_000_000
@@ -24,21 +22,20 @@ MOST_LEFT = 3_000_000
 
 def main() -> None:
     """Compile until the input ends."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the program that asked, which ends its workers
-    answers = os.fdopen(os.dup(1), "w")
-    os.dup2(2, 1)  # what foreign code prints is no answer
     gc.disable()  # what compilers leave lives long: looking through it takes a sixth of the time
-    for line in sys.stdin:
-        job = json.loads(line)
-        sys.path[:] = job["places"]
-        try:
-            _compile(job)
-            answer = {}
-        except Exception as problem:  # whatever it is, the process that asked has to say it
-            answer = {"problem": str(problem), "kind": type(problem).__name__}
-        print(json.dumps(answer), file=answers, flush=True)
-        if gc.get_count()[0] > MOST_LEFT:
-            gc.collect()
+    serve(_answer)
+
+
+def _answer(job: dict[str, Any]) -> tuple[str, str] | None:
+    """What went wrong, and the kind of error; None: the files are written."""
+    if gc.get_count()[0] > MOST_LEFT:
+        gc.collect()
+    sys.path[:] = job["places"]
+    try:
+        _compile(job)
+    except Exception as problem:  # whatever it is, the process that asked has to say it
+        return str(problem), type(problem).__name__
+    return None
 
 
 class SourcesChangedError(Exception):
@@ -122,7 +119,3 @@ def _all_targets() -> None:
 
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
-
-
-if __name__ == "__main__":
-    main()

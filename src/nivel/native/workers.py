@@ -1,16 +1,19 @@
-"""Worker processes, as many as there are processors; they are started when something has to be compiled, and end with this process."""
+"""Processes that answer jobs, one after the other, and end with this one; and those that compile, as many as there are processors."""
 
 from __future__ import annotations
 
 import atexit
 import json
 import os
+import pickle
+import signal
 import subprocess
 import sys
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from importlib.util import find_spec
 from queue import SimpleQueue
 from typing import Any
@@ -24,6 +27,131 @@ START = (
 def python(module: str, *words: str) -> list[str]:
     """The command of a process that calls `main` of a module, which it finds where this process does, and that ends with this one."""
     return [sys.executable, "-c", START, json.dumps([sys.path, os.getpid(), module]), *words]
+
+
+def end_with_parent(parent: int) -> None:
+    """End this process, whatever it does, within a second of the end of the process `parent` that started it."""
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(0.5)
+        os._exit(1)
+
+    if os.name == "posix":
+        threading.Thread(target=watch, daemon=True).start()
+
+
+LONGEST_END = 10.0  # s that a process which answers no more may take to end by itself
+
+
+class EndedError(Exception):
+    """A process has ended before it had an answer. status : its exit code, or less than zero that of the signal that ended it."""
+
+    def __init__(self, status: int) -> None:
+        super().__init__(status)
+        self.status = status
+
+
+def signal_of(status: int) -> str:
+    """The signal that ended a process, by its name, or as `signal 35` where it has none."""
+    try:
+        return signal.Signals(-status).name
+    except ValueError:
+        return f"signal {-status}"
+
+
+class Process:
+    """A process in which `main` of a module answers jobs (`serve`). given : further arguments of `subprocess.Popen`."""
+
+    def __init__(self, module: str, given: Mapping[str, Any]) -> None:
+        self._process = subprocess.Popen(python(module), stdin=subprocess.PIPE, stdout=subprocess.PIPE, **given)
+
+    def ask(self, job: Any) -> Any:
+        """The answer to a job. Raises what the job raised there, and EndedError."""
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        try:
+            pickle.dump(job, self._process.stdin, protocol=pickle.HIGHEST_PROTOCOL)
+            self._process.stdin.flush()
+            came, answer = pickle.load(self._process.stdout)
+        except (OSError, ValueError, EOFError, pickle.UnpicklingError):
+            with suppress(subprocess.TimeoutExpired):
+                self._process.wait(LONGEST_END)
+            self.end()
+            raise EndedError(self._process.returncode) from None
+        if came:
+            return answer
+        raise answer
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether it can take a job."""
+        return self._process.poll() is None
+
+    def end(self) -> None:
+        """Stop it, whatever it does."""
+        self._process.kill()
+        self._process.wait()
+        for pipe in (self._process.stdin, self._process.stdout):
+            with suppress(OSError):  # what was still to be written is for nobody
+                pipe.close()  # type: ignore[union-attr]
+
+
+def serve(answer: Callable[[Any], Any], idle: int = 0) -> None:
+    """Answer the jobs that come on the standard input until it ends. idle : s after which a process without a job ends; 0: never."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the program that asked, which ends this one
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what foreign code prints is no answer
+    alarm = getattr(signal, "alarm", lambda seconds: None)
+    while True:
+        alarm(idle)
+        try:
+            job = pickle.load(sys.stdin.buffer)
+        except EOFError:
+            return
+        alarm(0)
+        try:
+            found = True, answer(job)
+        except Exception as problem:  # whatever it is, the process that asked has to say it
+            found = False, problem
+        pickle.dump(found, answers, protocol=pickle.HIGHEST_PROTOCOL)
+        answers.flush()
+
+
+class Pool:
+    """Processes of a module, which are started when there is a job, wait for the next one, and end with this process.
+
+    given : further arguments of `subprocess.Popen`, found as a process is started.
+    """
+
+    def __init__(self, module: str, given: Callable[[], Mapping[str, Any]]) -> None:
+        self._module, self._given, self._lock = module, given, threading.Lock()
+        self._started: list[Process] = []
+        self._idle: list[Process] = []
+        atexit.register(self.end_all)
+
+    def take(self) -> Process:
+        """A process that waits, or a new one."""
+        with self._lock:
+            while self._idle:
+                if (process := self._idle.pop()).is_alive:
+                    return process
+            process = Process(self._module, self._given())
+            self._started.append(process)
+            return process
+
+    def give_back(self, process: Process) -> None:
+        """Let it wait for the next job."""
+        with self._lock:
+            self._idle.append(process)
+
+    def end_all(self) -> None:
+        """End the processes, which keep their memory while they wait; what has to be done later starts new ones."""
+        with self._lock:
+            for process in self._started:
+                process.end()
+            self._started.clear()
+            self._idle.clear()
 
 
 # kind of error of what calls functions of Numba when it runs, which object files cannot
@@ -40,18 +168,6 @@ class CompilationError(Exception):
     def __init__(self, message: str, kind: str) -> None:
         super().__init__(message)
         self.kind = kind
-
-
-def end_with_parent(parent: int) -> None:
-    """End this process, whatever it does, within a second of the end of the process `parent` that started it."""
-
-    def watch() -> None:
-        while os.getppid() == parent:
-            time.sleep(0.5)
-        os._exit(1)
-
-    if os.name == "posix":
-        threading.Thread(target=watch, daemon=True).start()
 
 
 def processors() -> int:
@@ -74,14 +190,14 @@ def compile_all(jobs: Iterable[dict[str, Any]], done: Callable[[dict[str, Any]],
     def work(take: Callable[[], dict[str, Any]]) -> None:
         problem: BaseException | None = None
         try:
-            worker = _take_worker()
+            process = COMPILERS.take()
             try:
                 while (job := _next(take)) is not None:
-                    worker.compile(job)
+                    _compile(process, job)
                     finished.put(job)
-            except CompilationError as found:  # the worker can take other jobs
+            except CompilationError as found:  # the process can take other jobs
                 problem = found
-            _idle.put(worker)
+            COMPILERS.give_back(process)
         except BaseException as found:  # whatever it is, nobody may wait for it
             problem = found
         if problem is not None:
@@ -113,62 +229,21 @@ def _next(take: Callable[[], dict[str, Any]]) -> dict[str, Any] | None:
         return None
 
 
-class _Worker:
-    def __init__(self) -> None:
-        command = python("nivel.native.worker")
-        # settings of Numba change machine code, and are no part of its name
-        own = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
-        own |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
-        self._process = subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=own, encoding="utf-8"
-        )
-
-    def compile(self, job: dict[str, Any]) -> None:
-        """Raises CompilationError."""
-        assert self._process.stdin is not None
-        assert self._process.stdout is not None
-        try:
-            self._process.stdin.write(json.dumps({**job, "places": sys.path}) + "\n")
-            self._process.stdin.flush()
-            answer = self._process.stdout.readline()
-        except BrokenPipeError:
-            answer = ""
-        if not answer:
-            status = self._process.wait()
-            raise CompilationError(f"the process that compiled {job['symbol']} ended with status {status}", "died")
-        if problem := json.loads(answer):
-            raise CompilationError(problem["problem"], problem["kind"])
-
-    @property
-    def is_alive(self) -> bool:
-        """Whether it can take a job."""
-        return self._process.poll() is None
-
-    def end(self) -> None:
-        """Stop it, whatever it does."""
-        self._process.kill()
-        self._process.communicate()
+def _compile(process: Process, job: dict[str, Any]) -> None:
+    """Raises CompilationError."""
+    try:
+        answer = process.ask({**job, "places": sys.path})
+    except EndedError as ended:
+        what = f"the process that compiled {job['symbol']} ended with status {ended.status}"
+        raise CompilationError(what, "died") from None
+    if answer is not None:
+        raise CompilationError(*answer)
 
 
-_idle: SimpleQueue[_Worker] = SimpleQueue()
-_started: list[_Worker] = []
-_lock = threading.Lock()
+def _surroundings() -> Mapping[str, Any]:
+    """Settings of Numba change machine code, and are no part of its name."""
+    own = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
+    return {"env": own | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}}
 
 
-def _take_worker() -> _Worker:
-    with _lock:
-        while not _idle.empty():
-            if (worker := _idle.get()).is_alive:
-                return worker
-        worker = _Worker()
-        _started.append(worker)
-        return worker
-
-
-@atexit.register
-def end_all() -> None:
-    """End the workers, which keep their memory while they wait; what has to be compiled later starts new ones."""
-    with _lock:
-        for worker in _started:
-            worker.end()
-        _started.clear()
+COMPILERS = Pool("nivel.native.worker", _surroundings)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import pickle
-import signal
-import subprocess
 import threading
 from collections import deque
 from collections.abc import Generator, Iterable, Mapping
@@ -21,7 +19,7 @@ from nivel.analysis.sweep.variant_runs import TIMED_OUT
 from nivel.errors import ModelError
 from nivel.extras import needed
 from nivel.lazy import distributed
-from nivel.native.workers import python
+from nivel.native.workers import EndedError, Process, signal_of
 from nivel.words.wording import seconds
 
 if TYPE_CHECKING:
@@ -91,11 +89,8 @@ class Worker:
         self._start()
 
     def _start(self) -> None:
-        self._process = subprocess.Popen(
-            python("nivel.analysis.sweep.worker"),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            env={**os.environ, **dict.fromkeys(ONE_THREAD, "1")},
+        self._process = Process(
+            "nivel.analysis.sweep.worker", {"env": {**os.environ, **dict.fromkeys(ONE_THREAD, "1")}}
         )
         self._task: Task | None = None
         self._lives = True
@@ -104,45 +99,21 @@ class Worker:
         """The variant, computed by the process; one that was killed or timed out where the process ends on the way."""
         if not self._lives and not self._ended:
             self._start()
-        assert self._process.stdin is not None
-        assert self._process.stdout is not None
         sent, self._task = (None if task is self._task else task), task
         begin = monotonic()
         try:
-            pickle.dump((sent, values), self._process.stdin, protocol=pickle.HIGHEST_PROTOCOL)
-            self._process.stdin.flush()
-            answer = pickle.load(self._process.stdout)
-        except (OSError, ValueError, EOFError, pickle.UnpicklingError):
-            status, self._lives = self._process.wait(), False
-            self._close()
-            if task.time_limit is not None and monotonic() - begin >= task.time_limit:
-                return VariantRun(TIMED_OUT, f"it took longer than the time limit of {seconds(task.time_limit)}")
-            return VariantRun(KILLED, f"the process that ran it ended with {_status(status)}")
-        if isinstance(answer, Exception):
-            raise answer
-        return answer
+            return self._process.ask((sent, values))
+        except EndedError as ended:
+            status, self._lives = ended.status, False
+        if task.time_limit is not None and monotonic() - begin >= task.time_limit:
+            return VariantRun(TIMED_OUT, f"it took longer than the time limit of {seconds(task.time_limit)}")
+        what = f"status {status}" if status >= 0 else f"the signal {signal_of(status).removeprefix('signal ')}"
+        return VariantRun(KILLED, f"the process that ran it ended with {what}")
 
     def end(self) -> None:
         """Stop it, whatever it does."""
         self._ended = True
-        self._process.kill()
-        self._process.wait()
-        self._close()
-
-    def _close(self) -> None:
-        for pipe in (self._process.stdin, self._process.stdout):
-            assert pipe is not None
-            with suppress(OSError):  # what was still to be written is for nobody
-                pipe.close()
-
-
-def _status(status: int) -> str:
-    if status >= 0:
-        return f"status {status}"
-    try:
-        return f"the signal {signal.Signals(-status).name}"
-    except ValueError:
-        return f"the signal {-status}"
+        self._process.end()
 
 
 AHEAD: Final = 2  # tasks that are submitted for each thread of the cluster, so that none waits for the next

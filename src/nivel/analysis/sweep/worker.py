@@ -1,15 +1,13 @@
-"""A process that computes variants: it reads pickled jobs from its input and answers each with a pickled result."""
+"""A process that computes variants: it answers each job with its result (`nivel.native.workers`)."""
 
 from __future__ import annotations
 
 import faulthandler
 import os
-import pickle
-import signal
-import sys
 from typing import Any
 
 from nivel.lazy import nivel
+from nivel.native.workers import serve
 
 
 def main() -> None:
@@ -17,23 +15,18 @@ def main() -> None:
 
     What goes on for longer than the time limit of the task ends the process, whatever it does.
     """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the program that asked, which ends its workers
-    answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what foreign code prints is no answer
     task: Any = None
     with open(os.devnull, "w", encoding="utf-8") as nowhere:
-        while True:
-            try:
-                sent, values = pickle.load(sys.stdin.buffer)
-            except EOFError:
-                return
+
+        def answer(job: Any) -> Any:
+            nonlocal task
+            sent, values = job
             task = sent or task
             if task.time_limit is not None:
                 faulthandler.dump_traceback_later(task.time_limit, exit=True, file=nowhere)
             try:
-                answer: Any = nivel.analysis.sweep.variant.run_variant(task, values)
-            except Exception as problem:  # whatever it is, the process that asked has to say it
-                answer = problem
-            faulthandler.cancel_dump_traceback_later()
-            pickle.dump(answer, answers, protocol=pickle.HIGHEST_PROTOCOL)
-            answers.flush()
+                return nivel.analysis.sweep.variant.run_variant(task, values)
+            finally:
+                faulthandler.cancel_dump_traceback_later()
+
+        serve(answer)

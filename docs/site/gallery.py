@@ -1,4 +1,4 @@
-"""Pictures of the examples, drawn by nivel when the site is built."""
+"""Pictures of the examples, and pages on which they are operated, made by nivel when the site is built."""
 
 from __future__ import annotations
 
@@ -59,14 +59,15 @@ def with_bodies(folder: Path) -> Path:
 FIRST = ("hydraulics/loader-crane.yaml", "hydraulics/excavator.yaml", "control/six-axis-arm.yaml")
 
 
-def gallery(pictures: bool) -> tuple[str, dict[str, str]]:
-    """The page, and its pictures (SVG) by their paths in the site."""
+def gallery(pictures: bool, machines: bool = False) -> tuple[str, dict[str, str]]:
+    """The page, and by their paths in the site its pictures (SVG) and the pages on which machines are operated."""
     lines = [
         "# Gallery",
         "",
-        "Every example of the package, as it is assembled. A click on a name shows the whole machine file.",
+        "Every example of the package, as it is assembled. A click on a name shows the whole machine file."
+        + (" *Operate it here* opens a page in which the machine moves, with its levers." if machines else ""),
     ]
-    drawn = _pictures() if pictures else {}
+    drawn = _drawn(pictures, machines)
     first = [EXAMPLES / name for name in FIRST]
     lines += _group(first, drawn)
     rest = [path for path in examples() if path not in first]
@@ -100,22 +101,53 @@ def _group(machines: list[Path], drawn: dict[str, str]) -> list[str]:
         if (picture := _picture_name(path)) in drawn:
             lines.append(f"![{name}]({picture})")
         lines += [
-            f"<figcaption markdown>[{name}](files/{path.relative_to(ROOT).as_posix()}) {_first_sentence(path)}{_trust(path)}</figcaption>",
+            f"<figcaption markdown>[{name}](files/{path.relative_to(ROOT).as_posix()}) {_first_sentence(path)}{_trust(path)}",
+            *([f'<br><a href="{page}">Operate it here</a>'] if (page := _page_name(path)) in drawn else []),
+            "</figcaption>",
             "</figure>",
         ]
     return [*lines, "", "</div>"]
 
 
 def _picture_name(path: Path) -> str:
-    return f"pictures/gallery/{'-'.join(path.relative_to(EXAMPLES).with_suffix('').parts)}.svg"
+    return f"pictures/gallery/{_place(path)}.svg"
 
 
-def _pictures() -> dict[str, str]:
-    """The pictures of all examples that can be drawn."""
+def _page_name(path: Path) -> str:
+    return f"operate/{_place(path)}.html"
+
+
+def _place(path: Path) -> str:
+    return "-".join(path.relative_to(EXAMPLES).with_suffix("").parts)
+
+
+def _drawn(pictures: bool, machines: bool) -> dict[str, str]:
+    """The pictures of all examples that can be drawn, and the pages of all that a page can carry."""
+    if not pictures and not machines:
+        return {}
+    out = {}
     with tempfile.TemporaryDirectory() as folder:
         copy = with_bodies(Path(folder))
-        drawn = {_picture_name(path): _picture(copy / path.relative_to(EXAMPLES)) for path in examples()}
-    return {name: svg for name, svg in drawn.items() if svg}
+        for path in examples():
+            own = copy / path.relative_to(EXAMPLES)
+            if pictures:
+                out[_picture_name(path)] = _picture(own)
+            if machines:
+                out[_page_name(path)] = _operated(own)
+    return {name: text for name, text in out.items() if text}
+
+
+def _operated(path: Path) -> str:
+    """The page of a machine that is operated; nothing where a page cannot carry it: Python laws, foreign units, chosen steps only."""
+    import nivel
+
+    page = path.with_suffix(".html")
+    try:
+        nivel.export_page(nivel.load(path, allow_code=True), page)
+    except nivel.NivelError as error:
+        print(f"gallery: {path.stem} is not operated: {error}")
+        return ""
+    return page.read_text(encoding="utf-8")
 
 
 def _first_sentence(path: Path) -> str:

@@ -67,9 +67,9 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
         add(f"notebooks/{path.stem}.md", text)
         for name, picture in shown.items():
             add(f"notebooks/{name}", picture)
-    page, drawn = gallery(pictures)
+    page, made = gallery(pictures, pictures and os.environ.get("NIVEL_SITE_MACHINES", "1") == "1")
     add("gallery.md", page)
-    for name, text in drawn.items():
+    for name, text in made.items():
         add(name, text)
     if pictures:
         add("moving/crane.html", crane_at_work())

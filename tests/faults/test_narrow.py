@@ -117,6 +117,15 @@ def test_harmless_functions_stay_green(load, integrator, tmp_path):
     assert result.trust.verdict == "green"
 
 
+@pytest.mark.parametrize("period", [1, 5])
+def test_a_kick_that_begins_at_the_end_of_a_step_is_not_missed_there(period, tmp_path):
+    """Kicks of 5 N for 20 ms, the last of which begins at the end of the run: after k of them the speed is 0.1 k m/s."""
+    text = WALL.replace(LOAD, f'"if(mod(time, {period}) < 0.02, 5, 0)"').replace(", velocity: [10, 0, 0]", "")
+    result = of_text(text.replace("1 s, step: 1 ms", "10 s"), tmp_path).simulate(verify=True, integrator="radau")
+    assert result.array("cart.velocity")[-1, 0] == pytest.approx(1.0 / period, rel=1e-5)
+    assert result.trust.verdict == "green"
+
+
 # --- events ---
 
 

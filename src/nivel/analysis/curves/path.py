@@ -18,7 +18,7 @@ from nivel.analysis.curves.functions import ExpressionCurve, Varying, is_local
 from nivel.errors import ModelError
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import LEAST, PARTS
-from nivel.lazy import dataclass, scipy
+from nivel.lazy import dataclass, replace, scipy
 from nivel.machine.control.part import VALUE
 from nivel.machine.core.vectors import Array, cross
 from nivel.machine.laws.functions import functions_of
@@ -182,15 +182,16 @@ def _switches(expression: Expression) -> Iterator[tuple[Node, Node | None]]:
 
 
 def cut_at_switches(function: Varying, path: Path, steps: Steps) -> Steps:
-    """The steps, each in parts where it contains a switch of the function."""
+    """The steps, each in parts where it contains a switch of the function. A jump at the end of a step is of the next one."""
+    gap = LEFT_OUT * float(np.diff(path.time).min())
+    ending = replace(steps, length=np.maximum(steps.length - gap, 0.5 * steps.length))
     if not isinstance(function.curve, ExpressionCurve) or function.motion:
-        return steps
+        return ending
     found = [_changes(first, second, path) for first, second in _switches(function.curve.expression)]
     times = np.unique(np.concatenate([*found, []]))
     times = times[(times > steps.begin[0]) & (times < steps.begin[-1] + steps.length[-1])]
     if not len(times):
-        return steps
-    gap = LEFT_OUT * float(np.diff(path.time).min())
+        return ending
     begin = np.concatenate([steps.begin, times + gap])
     end = np.concatenate([steps.begin + steps.length, times - gap])
     begin, end = np.sort(begin), np.sort(end)

@@ -239,11 +239,17 @@ class Tyre(ForceElement):
         marker = machine.marker_named[self.wheel] if isinstance(self.wheel, str) else self.wheel
         if marker.body not in machine.placed:
             return
-        axle = machine.placed[marker.body][1] @ marker_frame(marker)[1][:, 2]
+        (place, rotation), (own, frame) = machine.placed[marker.body], marker_frame(marker)
+        axle, centre = rotation @ frame[:, 2], place + rotation @ own
         for joint in machine.joints:
             if joint.type != "revolute" or joint.axis is None or marker.body not in (joint.bodies or ()):
                 continue
             axis = np.array(joint.axis) / np.linalg.norm(joint.axis)
+            if (
+                joint.point is None
+                or np.linalg.norm(np.cross(centre - np.array(joint.point), axis)) > SKEW * self.radius
+            ):
+                continue  # it turns about something else
             if np.linalg.norm(np.cross(axis, axle)) > SKEW:
                 text = f"the z axis of the marker is not along the axis of the joint `{joint.name}`, about which `{marker.body}` turns"
                 yield (

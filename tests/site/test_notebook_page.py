@@ -52,3 +52,15 @@ def test_studies_run_and_their_page_shows_what_is_known(monkeypatch):
     assert len(pictures) == 3
     for value, deviation, truth in re.findall(r"([\d.]+) ± ([\d.]+), measured with ([\d.]+)", text):
         assert abs(float(value) - float(truth)) < 4.0 * float(deviation)
+
+
+@pytest.mark.full
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize(("name", "plots"), [("robotics", 3), ("mechatronics", 2), ("vehicles", 3)])
+def test_other_notebooks_run_and_their_pages_show_plots(name, plots, monkeypatch):
+    monkeypatch.setenv("PYTHONPATH", str(DOCS.parent / "src"))
+    text, pictures = notebook_page(DOCS / "notebooks" / f"{name}.ipynb")
+    assert len(pictures) == plots
+    asymmetry = re.search(r"asymmetry ([\d.e-]+)", text)
+    assert (asymmetry is not None) == (name == "robotics")
+    assert asymmetry is None or float(asymmetry[1]) < 1e-12

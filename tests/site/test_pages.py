@@ -41,8 +41,7 @@ MADE = {
     "gallery.md",
     "keys.md",
     "notation.md",
-    "notebooks/first-steps.md",
-    "notebooks/studies.md",
+    *(f"notebooks/{path.stem}.md" for path in (DOCS / "notebooks").glob("*.ipynb")),
 }
 WRITTEN_HERE = [
     "index.md",

@@ -14,9 +14,8 @@ from nivel import methods
 from nivel.machine.core.record import Record
 from nivel.machine.given import Shown
 from nivel.machine.settings.analyses import InverseSettings, KinematicsSettings, LineariseSettings, StaticsSettings
-from nivel.machine.settings.compare import COMMON, Axes
 from nivel.machine.settings.run import ENDLESS, SimulationSettings
-from nivel.machine.settings.sweep import SweepSettings
+from nivel.machine.settings.sweep import COMMON, Axes, SweepSettings
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import Quantity
 

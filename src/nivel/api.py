@@ -34,7 +34,7 @@ from nivel.words.arguments import checked_arguments
 from nivel.words.wording import shown
 
 if TYPE_CHECKING:
-    from nivel.analysis.assembly.mass import MassProperties
+    from nivel.analysis.assembly.assemble import MassProperties
     from nivel.analysis.interactive.posing import Posing
     from nivel.analysis.inverse.mechanics import Mechanics
     from nivel.analysis.optimise.evaluations import Exact
@@ -133,7 +133,7 @@ class Machine(Model):
     ) -> MassProperties:
         """Mass, centre of mass and inertia of these bodies, or of all, as assembled, about a marker or body and along its axes."""
         with self._assembled(listener):
-            return nivel.analysis.assembly.mass.mass_properties(
+            return nivel.analysis.assembly.assemble.mass_properties(
                 self.record, about, (bodies,) if isinstance(bodies, str) else tuple(bodies)
             )
 
@@ -192,7 +192,7 @@ class Machine(Model):
         paths = (sensitivities,) if isinstance(sensitivities, str) else sensitivities
         with chosen._faults_in_file():
             if paths:
-                nivel.analysis.gradients.sensitivities.check_parameters(chosen, plan, paths)
+                nivel.analysis.gradients.gradient.check_parameters(chosen, plan, paths)
             result = nivel.analysis.run.simulate.simulate(
                 plan,
                 source=self.origin.source,
@@ -206,7 +206,7 @@ class Machine(Model):
             if not paths:
                 return result
             source = self.origin.source
-            whole = nivel.analysis.gradients.sensitivities.with_sensitivities(
+            whole = nivel.analysis.gradients.gradient.with_sensitivities(
                 chosen, plan, result, paths, source=source, checked=verify, listener=listener
             )
         return whole if out is None else open_result(whole.save(out, force=force))
@@ -793,7 +793,7 @@ class Machine(Model):
             record = (
                 self.record
                 if trajectory is None
-                else nivel.analysis.inverse.number_table.along_trajectory(self.record, trajectory)
+                else nivel.analysis.inverse.run.along_trajectory(self.record, trajectory)
             )
             wanted = nivel.analysis.inverse.actuators.actuation(record, asked)
             if nivel.analysis.inverse.actuators.rubs(record):
@@ -967,7 +967,7 @@ class Machine(Model):
         if repeat < 1:
             raise ModelError(Fault.at("repeat", f"a whole number of at least 1 was expected, got `{repeat}`"))
         asked = _given(settings)
-        words = nivel.machine.settings.compare
+        words = nivel.machine.settings.sweep
         axes = words.Axes(**{key: value for key, value in asked.items() if key in words.Axes.model_fields})
         given = {key: value for key, value in asked.items() if key in words.COMMON}
         chosen = self.with_settings(given)

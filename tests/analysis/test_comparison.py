@@ -106,7 +106,7 @@ def test_the_error_of_the_motion_is_that_of_the_closed_form():
 
 
 def test_the_error_of_the_reference_is_below_what_it_says():
-    from nivel.analysis.compare.reference import solve
+    from nivel.analysis.compare.compare import solve
 
     record = oscillator().record
     grid = lay_out(record, Axes(steps=[0.02, 0.01]))

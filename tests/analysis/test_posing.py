@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 
 import nivel
 from example_files import rigid_example
-from nivel.analysis.assembly.turned_frame import nearest_angles, rates_of_angles
 from nivel.analysis.interactive import posing
+from nivel.analysis.interactive.handles import nearest_angles, rates_of_angles
 from nivel.analysis.interactive.posing import Posing
 
 pytestmark = pytest.mark.covering

@@ -2,7 +2,7 @@
 
 import pytest
 
-from nivel.analysis.plan.modal_stiffness import SOFT, is_soft
+from nivel.analysis.plan.beam_facts import SOFT, is_soft
 from nivel.files import parse_machine
 
 STEP, MASS, INERTIA = 1e-3, 4.0, 0.5

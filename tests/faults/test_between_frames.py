@@ -11,8 +11,7 @@ from nivel.analysis.sweep.outputs import Task
 from nivel.analysis.sweep.variant import run_variant
 from nivel.files import parse_machine
 from nivel.machine.study.output import Reduced
-from nivel.results.curve import curve, curve_of
-from nivel.results.reductions import REDUCTIONS, integral_of_magnitude, largest, turning_values
+from nivel.results.curve import REDUCTIONS, curve, curve_of, integral_of_magnitude, largest, turning_values
 
 HERE = Path(__file__).parent
 OMEGA, PHASE, END = 2.0 * np.pi * 3.0, 0.3, 2.0

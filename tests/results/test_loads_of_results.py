@@ -5,8 +5,7 @@ import pytest
 
 import nivel
 from nivel.files import parse_machine
-from nivel.results.curve import curve
-from nivel.results.reductions import largest
+from nivel.results.curve import curve, largest
 
 # ASTM E1049-85, figure 6: peaks and valleys and what they count as
 HISTORY = [-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0]

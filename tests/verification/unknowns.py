@@ -16,8 +16,8 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import EULER_ANGLES, NONE, ROTATION_VECTOR
 from nivel.motion.catalogue import path_of
 from nivel.system.states import absolute
+from nivel.system.states.absolute import arranged
 from nivel.system.states.relative import arrange
-from nivel.system.states.three_coordinates import arranged
 from preparing import prepare
 
 # [s², s, s] by how much an acceleration moves positions and velocities, and a rate its state: as in a step of about 0.3 s

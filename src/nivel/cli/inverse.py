@@ -46,7 +46,7 @@ def _lead(order: Order, path: str | None, point: str | None) -> None:
         raise ModelError(Fault.at(f"inverse.{name}", "has no part in inverse kinematics: leave it out"))
     target = Path(order.out or f"{machine.name}-joints.csv")
     nivel.files.target.check_target(target, "table", force=order.force, sources=[Path(path)])
-    times, places, orientations = nivel.analysis.inverse.number_table.read_path(path)
+    times, places, orientations = nivel.analysis.inverse.run.read_path(path)
     with progress_listener(order.quiet) as listener:
         found = machine.inverse_kinematics(point, places, times=times, orientations=orientations, listener=listener)
         found.save_csv(target)

@@ -48,10 +48,9 @@ if TYPE_CHECKING:
     from nivel.elements.circuits.fluids import AnyFluid
     from nivel.elements.joints.couplings import Coupling
     from nivel.elements.joints.drivers import Driver
-    from nivel.machine.signals.event import Event
+    from nivel.machine.signals.event import Event, State
     from nivel.machine.signals.input import Input
     from nivel.machine.signals.sensor import Sensor
-    from nivel.machine.signals.state import State
 else:  # sections that few machines have
     Beam = Annotated[Any, RecordAt("nivel.elements.beams.beam:Beam")]
     AnyFluid = Annotated[Any, RecordAt("nivel.elements.circuits.fluids:AnyFluid")]
@@ -60,7 +59,7 @@ else:  # sections that few machines have
     Event = Annotated[Any, RecordAt("nivel.machine.signals.event:Event")]
     Input = Annotated[Any, RecordAt("nivel.machine.signals.input:Input")]
     Sensor = Annotated[Any, RecordAt("nivel.machine.signals.sensor:Sensor")]
-    State = Annotated[Any, RecordAt("nivel.machine.signals.state:State")]
+    State = Annotated[Any, RecordAt("nivel.machine.signals.event:State")]
 
 LONGEST_NAME: Final = 100  # characters: the files of a run are named after the machine
 

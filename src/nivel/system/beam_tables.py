@@ -16,7 +16,7 @@ from nivel.kernels.tree.joints import BY_ADDRESS
 from nivel.known import Beam
 from nivel.lazy import nivel
 from nivel.system.builder import SystemBuilder
-from nivel.system.elimination.tangent_plan import TangentPlan
+from nivel.system.elimination.factor_plan import TangentPlan
 from nivel.system.system import System
 from nivel.system.tables import empty, index_array
 

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.kernels.record import implicit_record
 from nivel.kernels.record.record import NONE, Record
-from nivel.system.elimination.factor_plan import FactorPlan
-from nivel.system.elimination.tangent_plan import TangentPlan, plan_tangent
+from nivel.system.elimination.factor_plan import FactorPlan, TangentPlan, plan_tangent
 from nivel.system.system import Array, StateMap
 from nivel.system.tables import index_array
 

@@ -4,7 +4,7 @@ import pytest
 
 from beams import general
 from nivel.analysis.plan.plan import plan_run
-from nivel.analysis.run import second_run
+from nivel.analysis.run import attempt as second_run
 from nivel.analysis.run.dynamics import RunOutcome
 from nivel.judge.after.checks.accuracy import MARGIN, error_from_finer
 from simulating import machine

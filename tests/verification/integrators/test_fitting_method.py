@@ -5,7 +5,7 @@ from itertools import count
 import numpy as np
 import pytest
 
-from nivel.analysis.run import second_run
+from nivel.analysis.run import attempt as second_run
 from nivel.errors import ModelError
 from nivel.files.reader import parse_machine
 from nivel.files.writer import write_machine

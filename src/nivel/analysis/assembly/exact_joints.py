@@ -16,7 +16,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from nivel.analysis.assembly.equations import MotionEquations
-from nivel.analysis.assembly.freedoms import LARGEST
+from nivel.analysis.assembly.named_freedoms import LARGEST
 from nivel.analysis.assembly.redundancy import dependent_rows, row_lengths, scaled_jacobian
 from nivel.elements.joints import JOINTS
 from nivel.lazy import scipy

@@ -23,7 +23,7 @@ from nivel.kernels.tree.modal_nodes import pass_modes
 from nivel.kernels.tree.tree_nodes import pass_sliders
 from nivel.lazy import dataclass, nivel, replace, scipy
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
-from nivel.system.elimination.tangent_plan import TangentPlan, plan_tangent
+from nivel.system.elimination.factor_plan import TangentPlan, plan_tangent
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
 from nivel.system.laws.laws import dual_address
 from nivel.system.system import Array, System

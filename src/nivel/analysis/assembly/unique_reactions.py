@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations
-from nivel.analysis.assembly.freedoms import LARGEST
+from nivel.analysis.assembly.named_freedoms import LARGEST
 from nivel.analysis.assembly.redundancy import DEPENDENT, aside, dependent_rows, row_lengths, scaled_jacobian
 from nivel.kernels.solve.saddle import LEFT_OUT
 from nivel.lazy import dataclass

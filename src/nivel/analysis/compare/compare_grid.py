@@ -17,8 +17,8 @@ from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.lazy import dataclass
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.settings.compare import Axes
 from nivel.machine.settings.run import SimulationSettings, changed
+from nivel.machine.settings.sweep import Axes
 from nivel.methods import chooses
 from nivel.results.comparison import Method
 

@@ -20,9 +20,8 @@ from nivel.machine.study import output as study
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import Quantity
 from nivel.model import Model
-from nivel.results.curve import Curve, curve_of
-from nivel.results.reductions import Number, extreme, integral_of_product, largest, smallest
-from nivel.results.reductions import integral as whole
+from nivel.results.curve import Curve, Number, curve_of, extreme, integral_of_product, largest, smallest
+from nivel.results.curve import integral as whole
 from nivel.results.result import Result
 from nivel.words.wording import shown
 

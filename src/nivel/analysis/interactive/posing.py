@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.closing import Wishes, close_positions
 from nivel.analysis.assembly.equations import MotionEquations, equations, moved
-from nivel.analysis.assembly.freedoms import Freedoms, coordinate_derivatives, freedoms
+from nivel.analysis.assembly.named_freedoms import Freedoms, coordinate_derivatives, freedoms
 from nivel.analysis.interactive.handles import Handle, Wish, further_handles, measured_handles
 from nivel.analysis.plan.beam_facts import with_stiff_beams
 from nivel.lazy import dataclass

@@ -15,9 +15,9 @@ from scipy.optimize import brentq
 from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.closing import close_positions
 from nivel.analysis.assembly.equations import MotionEquations, change_between, equations, moved
-from nivel.analysis.assembly.freedoms import coordinate_derivatives, freedoms
+from nivel.analysis.assembly.named_freedoms import coordinate_derivatives, freedoms
 from nivel.analysis.assembly.redundancy import scaled_jacobian
-from nivel.analysis.kinematics.singular import TAKES_PART, determinant_sign, independent_rows
+from nivel.analysis.kinematics.drive import TAKES_PART, determinant_sign, independent_rows
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Curve

@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 
 from nivel.analysis.curves.corners import with_features
 from nivel.analysis.curves.functions import ExpressionCurve, TableCurve
-from nivel.analysis.kinematics.singular import singular_positions
+from nivel.analysis.kinematics.drive import singular_positions
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.plan.settings import RunSettings, complete
 from nivel.analysis.preparation.attributes import run_attributes
-from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.preparation.shared_loads import sharing
+from nivel.analysis.preparation.preparation import Prepared, sharing
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.progress.pacing import terminable
 from nivel.analysis.run.dynamics import GOES_ON, RunOutcome, keep_last, march_in_chunks

@@ -6,9 +6,8 @@ from collections.abc import Collection
 from typing import Final
 
 from nivel.analysis.plan import choice
-from nivel.analysis.plan.choice import choose_coordinates
-from nivel.analysis.plan.combinations import refuse_combinations
-from nivel.analysis.plan.modal_stiffness import integrator_of
+from nivel.analysis.plan.beam_facts import integrator_of
+from nivel.analysis.plan.choice import choose_coordinates, refuse_combinations
 from nivel.analysis.plan.settings import RunSettings, complete
 from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.elements.forces.friction import Friction

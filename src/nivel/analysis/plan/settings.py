@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import ceil
 from typing import TypeVar
 
-from nivel.analysis.plan.combinations import refuse_combinations
+from nivel.analysis.plan.choice import refuse_combinations
 from nivel.errors import Fault, ModelError, refuse
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.facts import IntegratorFacts

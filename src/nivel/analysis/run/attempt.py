@@ -2,31 +2,292 @@
 
 from __future__ import annotations
 
+import threading
+import time as clock_of_python
+from collections.abc import Callable
 from functools import cached_property
-from math import inf
+from math import ceil, gcd, inf, lcm
 
 import numpy as np
+from numpy.typing import NDArray
 
+from nivel.analysis.curves.corners import corners
 from nivel.analysis.plan.plan import Plan, methods_of
+from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.log import Listener
-from nivel.analysis.progress.pacing import Leader
+from nivel.analysis.progress.pacing import Follower, Leader, interruptible
 from nivel.analysis.run.dynamics import RunOutcome, march
-from nivel.analysis.run.second_run import SecondRun, Verified
+from nivel.analysis.run.prepared_state import prepare
 from nivel.errors import ModelError, SolveError
+from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.sink import Header
 from nivel.judge.after.checks.accuracy import factor
 from nivel.judge.after.other_elements import Compared, Pair
 from nivel.judge.after.subject import Run, run_of
+from nivel.judge.before.refusals import sampled_times
 from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.estimate import estimate_errors
+from nivel.results.estimate import TIMES, estimate_errors
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
 from nivel.system.beam_nodes import with_nodes
 from nivel.system.system import Array
+from nivel.words.wording import seconds
+
+# A second run beside the first, in a thread of its own, with finer steps that fall on other times: what they are apart by is the error.
+
+# Steps of fixed size are this much shorter in the second run: about 5/3, where one in three steps of the first ends with one of it.
+FINER, LEAST_STEPS = 1.6, 3
+# Where states change at given times, some of these many steps, at most, fill the time between two of them.
+MOST_OF_SAMPLES = 12
+# Corners meet the ends of steps where they are this near to them, as a share of the time.
+NEAR = 1e-9
+# Of machines with beams, whose steps are dear, they are longer: so many take as long as so many of the first run.
+LONGER = (3, 5)
+# Steps of the second run in one of the first where every frame is compared.
+FINEST = 5
+# of the tolerance, where steps are chosen
+TENTH = 0.1
+# A second run may do so many times the work of the first one, and at least so many evaluations: LEAST_WORK by the number of states,
+# which are seconds.
+MOST_TIMES, LEAST_WORK, FEW_STATES = 3.0, 2e7, 10
+# [s] between two looks at a run that is waited for
+LOOK = 0.02
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """What a second run does otherwise.
+
+    settings : its own, with frames at times of those of the first run. words : what it is. left : its error as a share of that of the
+    first run; above 1 where its steps are longer.
+    """
+
+    settings: RunSettings
+    words: str
+    left: float
+
+
+@dataclass(frozen=True)
+class Verified:
+    """A second run as far as it came. until : its last frame [s]. ended : why it came to no end; empty where it did. finished, prepared,
+    frames : how it ended, its machine, and what a sink has taken of it (n, width)."""
+
+    result: Result
+    refinement: Refinement
+    until: float
+    ended: str
+    finished: RunOutcome
+    prepared: Prepared
+    frames: NDArray[np.float64]
+
+    @property
+    def pace(self) -> NDArray[np.float64] | None:
+        """Of `nivel.integrate.loop.run.Run`."""
+        return self.finished.pace
+
+
+def refine(settings: RunSettings, between_samples: int = 0) -> Refinement:
+    """How a second run is to differ from one with these settings.
+
+    between_samples : whole numbers of so many fixed steps lie between times at which states are sampled, which steps have to meet; 0: none
+    are.
+
+    Half the step would look at loads where the first run does. Steps of three fifths meet the first run's in one of three, where frames
+    can be compared, and what repeats itself within a step of the first run does not within one of these.
+    """
+    if settings.tolerance is not None:
+        finer = replace(settings, tolerance=TENTH * settings.tolerance)
+        return Refinement(finer, f"a tolerance of {finer.tolerance:.3g} and other, irregular steps", TENTH)
+    coarse, fine = subdivision(settings, between_samples)
+    finer = with_steps(settings, settings.step * coarse / fine, fine)
+    words = f"steps of {seconds(finer.step)}"
+    return Refinement(finer, words, (coarse / fine) ** INTEGRATORS[settings.integrator].order)
+
+
+def with_steps(settings: RunSettings, step: float, every: int) -> RunSettings:
+    """The same run with fixed steps [s], `every` of them between frames."""
+    steps = max(1, ceil(settings.duration / step * (1.0 - 1e-12)))
+    return replace(settings, step=step, every=every, steps=steps, output_interval=every * step)
+
+
+def coarsened(plan: Plan) -> Refinement | None:
+    """A second run with longer steps, of a machine with beams and an implicit method: it takes two thirds of the time of the first. None
+    where steps have to meet given times, or would give fewer frames than estimates are kept at."""
+    settings, method = plan.settings, INTEGRATORS[plan.settings.integrator]
+    if not settings.steps:
+        return None
+    fine, coarse = LONGER
+    every = settings.every * -(-coarse // settings.every)
+    whole = every * fine % coarse == 0
+    if not plan.machine.beams or method.needs == "evaluations" or method.multistep or _steps_to_meet(plan) or not whole:
+        return None
+    if not settings.steps >= TIMES * every:
+        return None
+    own = with_steps(settings, settings.step * coarse / fine, every * fine // coarse)
+    own = replace(own, output_interval=every * settings.step)
+    return Refinement(own, f"steps of {seconds(own.step)}", (coarse / fine) ** method.order)
+
+
+def _steps_to_meet(plan: Plan) -> int:
+    """Whole numbers of so many fixed steps lie between times that the second run's steps have to meet too; 0: there are none.
+
+    These are samples; and corners of functions of time, where the first run's steps meet all of them and it can be had: else the second one
+    has an error at them that the first has not, by which the two may agree.
+    """
+    step = plan.settings.step
+    samples = gcd(*(round(time / step) for _, time in sampled_times(plan.machine)))
+    found = [time / step for time in corners(plan.machine)] if plan.settings.steps else []
+    counts = [round(each) for each in found]
+    if not found or any(abs(each - count) > NEAR * count for each, count in zip(found, counts, strict=True)):
+        return samples
+    both = gcd(samples, *counts)
+    return both if samples or steps_between(both) >= LEAST_STEPS else 0
+
+
+def subdivision(settings: RunSettings, between_samples: int) -> tuple[int, int]:
+    """So many steps of the first run take as long as so many of the second one; there frames of both can be compared.
+
+    Where that gives fewer frames than estimates are kept at, errors of the first steps would be missed: then all frames are compared.
+    So it is where multistep methods begin anew after every second step, since what begins them has an error of its own.
+    """
+    every = settings.every
+    few = steps_between(between_samples)
+    if between_samples:
+        coarse = lcm(few, every)
+        fine = max(few + 1, round(FINER * few)) * (coarse // few)
+    else:
+        coarse = ceil(LEAST_STEPS / every) * every
+        fine = ceil(FINER * coarse)
+    begins_anew = few < LEAST_STEPS and INTEGRATORS[settings.integrator].multistep
+    if begins_anew or (coarse > every and settings.steps < TIMES * coarse):
+        return every, FINEST * every
+    return coarse, fine
+
+
+def steps_between(samples: int) -> int:
+    """The least part of `samples` steps with three of them or more: one in so many ends where a finer one does. Else 2 or 1."""
+    if not samples:
+        return LEAST_STEPS
+    parts = [few for few in range(1, MOST_OF_SAMPLES + 1) if samples % few == 0]
+    return next((few for few in parts if few >= LEAST_STEPS), parts[-1])
+
+
+def most_work(first: float, states: int) -> float:
+    """Work that a second run, or another choice, may do beside a first one that did so much, of a machine with so many states."""
+    return max(MOST_TIMES * first, LEAST_WORK / max(states, FEW_STATES))
+
+
+class SecondRun:
+    """A second run of a plan in a thread; it waits for the first one to begin.
+
+    limit [s] : how long it may go on after the first; None: up to `most_work`. beside : another second run, with finer steps; this one
+    then makes the same steps as the first, of a plan that is another. prepared : the machine of the plan, not
+    yet run, for this run alone; None: it is prepared in the thread.
+    """
+
+    def __init__(
+        self,
+        plan: Plan,
+        limit: float | None,
+        beside: SecondRun | None = None,
+        words: str = "",
+        prepared: Prepared | None = None,
+    ) -> None:
+        if beside is None:
+            self.refinement = coarsened(plan) or refine(plan.settings, _steps_to_meet(plan))
+        else:
+            self.refinement = Refinement(plan.settings, words, 0.0)
+        self.leader = Leader() if beside is None else beside.leader
+        self._follows = beside is None
+        self._plan, self._limit, self._prepared = plan, limit, prepared
+        self._sink = Memory()
+        self._finished: RunOutcome | None = None
+        self._fault: Exception | None = None
+        self._stopped = threading.Event()
+        self._reached = 0.0
+        self._follower: Follower | None = None
+        self._thread = threading.Thread(target=self._run, name="second run", daemon=True)
+        self._thread.start()
+
+    def _run(self) -> None:
+        self.leader.begun.wait()
+        if self._stopped.is_set():
+            return
+        try:
+            self._finished = self._march()
+            if self._finished.outcome == "failed" and self.refinement.left > 1.0:  # longer steps are too long
+                self.refinement = refine(self._plan.settings, _steps_to_meet(self._plan))
+                self._sink, self._prepared = Memory(), None
+                self._finished = self._march()
+        except Exception as fault:  # raised where the run is waited for
+            self._fault = fault
+
+    def _march(self) -> RunOutcome:
+        settings = self.refinement.settings
+        prepared = self._prepared = self._prepared or prepare(self._plan.methods)
+        self._sink.begin(Header(prepared.motion.system.layout, {}))
+        chosen = settings.steps == 0 and self._follows
+        self._follower = Follower(self.leader if chosen else None, settings.duration, self._stopped.is_set)
+        return march(prepared, settings, [self._sink], progress=self._reach, pacing=self._follower)
+
+    def _reach(self, time: float) -> None:
+        self._reached = time
+
+    def cancel(self) -> None:
+        """End it; nothing is asked of it any more."""
+        self._stopped.set()
+        self.leader.end()
+        self._thread.join()
+
+    def wait(self, listener: Listener) -> Verified | None:
+        """What it found, when it is over, its time is spent or Ctrl-C came. None where it has no frame."""
+        self.leader.end()
+        listener.say(f"verifying with {self.refinement.words}", self.refinement.settings.duration)
+        ended = self._watch(listener.progress)
+        self._stopped.set()
+        self._thread.join()
+        if self._fault is not None:
+            raise self._fault
+        finished = self._finished
+        if finished is None:
+            return None
+        if finished.outcome == "failed" and finished.failure is not None:
+            ended = f"the second run {finished.failure[0]}"
+        result = self._sink.result()
+        if not len(result.time):
+            return None
+        if finished.outcome == "done":
+            ended = self._spent()
+        assert self._prepared is not None
+        until, frames = float(result.time[-1]), self._sink.frames
+        return Verified(result, self.refinement, until, ended, finished, self._prepared, frames)
+
+    def _spent(self) -> str:
+        """Why it is given up where its work is: the same on every computer, also where it came to its end before that was seen."""
+        if self._limit is not None or self._follower is None or self._prepared is None:
+            return ""
+        most = most_work(self.leader.work, len(self._prepared.start))
+        return f"the work for verification was spent ({most:.3g} evaluations)" if self._follower.work > most else ""
+
+    def _watch(self, progress: Callable[[float], None] | None) -> str:
+        """Wait for the thread; why it has to end before its time, where it has to."""
+        begin = clock_of_python.perf_counter()
+        with interruptible() as interrupted:
+            while self._thread.is_alive():
+                self._thread.join(LOOK)
+                if progress is not None:
+                    progress(self._reached)
+                if interrupted():
+                    return "verification was interrupted"
+                if self._limit is not None and clock_of_python.perf_counter() - begin > self._limit:
+                    return f"the time for verification was spent ({self._limit:.3g} s after the run)"
+                if ended := self._spent():
+                    return ended
+        return ""
 
 
 @dataclass(frozen=True)

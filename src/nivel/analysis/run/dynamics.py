@@ -17,8 +17,7 @@ from nivel.analysis.assembly.penalties import feedback, of_rows
 from nivel.analysis.curves.corners import jumping_functions
 from nivel.analysis.plan.compilation import build, preparation_entries
 from nivel.analysis.plan.settings import RunSettings
-from nivel.analysis.preparation.preparation import Prepared, with_integrator
-from nivel.analysis.preparation.shared_loads import sharing
+from nivel.analysis.preparation.preparation import Prepared, sharing, with_integrator
 from nivel.analysis.progress.log import Listener, Progress
 from nivel.analysis.progress.pacing import Pacing, interruptible, work
 from nivel.analysis.run.history import go_on_with, start_history

@@ -13,7 +13,7 @@ import numpy as np
 
 from nivel.analysis.assembly.closing import Wishes, close_positions, least_change
 from nivel.analysis.assembly.equations import equations
-from nivel.analysis.assembly.freedoms import coordinate_derivatives, freedoms
+from nivel.analysis.assembly.named_freedoms import coordinate_derivatives, freedoms
 from nivel.analysis.assembly.velocities import whitened
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.preparation import Prepared

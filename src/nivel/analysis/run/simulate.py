@@ -21,10 +21,9 @@ from nivel.analysis.plan.plan import Plan, other_run
 from nivel.analysis.preparation.attributes import run_attributes, settings_in_json
 from nivel.analysis.progress.log import Listener, Progress
 from nivel.analysis.progress.pacing import terminable
-from nivel.analysis.run.attempt import Attempt, Options, attempt, header_of
+from nivel.analysis.run.attempt import TENTH, Attempt, Options, SecondRun, attempt, header_of, most_work
 from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.prepared_state import prepare
-from nivel.analysis.run.second_run import TENTH, SecondRun, most_work
 from nivel.errors import ModelError, SolveError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.run import ITERATED, MOST_ITERATED, STEPPED, TAKEN

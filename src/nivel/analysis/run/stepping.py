@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.memory import in_one_piece
-from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.preparation.shared_loads import SharedLoads, are_open
+from nivel.analysis.preparation.preparation import Prepared, SharedLoads, are_open
 from nivel.analysis.run import prepared_state
 from nivel.analysis.run.dynamics import BEFORE_A_JAM, Loop, failure_of, jam_of, start_loop, taken_events
 from nivel.analysis.run.fitting import fitted

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from nivel.analysis.assembly.equations import rotation_between
-from nivel.analysis.assembly.freedoms import Freedoms
+from nivel.analysis.assembly.named_freedoms import Freedoms
 from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEquations, Tangent
 from nivel.analysis.statics.frames import FrameWriter
 from nivel.analysis.statics.linear import NO_STIFFNESS, PivotError, is_small, lowest, solve, unstable_directions

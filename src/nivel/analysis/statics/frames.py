@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from nivel.analysis.preparation.shared_loads import SharedLoads
+from nivel.analysis.preparation.preparation import SharedLoads
 from nivel.analysis.statics.equations import Rest, StaticEquations
-from nivel.analysis.statics.vibrations import Vibrations
+from nivel.analysis.statics.linear import Vibrations
 from nivel.kernels.output.observe import observe
 from nivel.kernels.residual.tangent_entries import evaluate_residual
 from nivel.lazy import dataclass

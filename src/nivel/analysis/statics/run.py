@@ -13,8 +13,7 @@ import numpy as np
 from nivel.analysis.assembly.implicit import ResidualOptions
 from nivel.analysis.plan.plan import methods_of
 from nivel.analysis.preparation.attributes import run_attributes
-from nivel.analysis.preparation.preparation import Assembled, Prepared, prepare
-from nivel.analysis.preparation.shared_loads import SharedLoads
+from nivel.analysis.preparation.preparation import Assembled, Prepared, SharedLoads, prepare
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.progress.pacing import interruptible, terminable
 from nivel.analysis.statics.critical import CriticalPoint, critical_points, is_mechanism, softest
@@ -22,13 +21,19 @@ from nivel.analysis.statics.ends import direction_in_words, no_start, path_ended
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.frames import Facts, FrameWriter
 from nivel.analysis.statics.free_coordinates import for_statics, loaded_free
-from nivel.analysis.statics.linear import PivotError, has_potential, lowest, unstable_directions
+from nivel.analysis.statics.linear import (
+    PivotError,
+    buckling_factors,
+    has_potential,
+    lowest,
+    unstable_directions,
+    vibrations,
+)
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads
 from nivel.analysis.statics.rigid_motions import of_whole
 from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.states import depends_on_samples, growing_motions, restlessness
-from nivel.analysis.statics.vibrations import buckling_factors, vibrations
 from nivel.errors import ModelError, SolveError, refuse
 from nivel.integrate.loop.sink import Header
 from nivel.judge.after.other_elements import (

@@ -28,8 +28,7 @@ from nivel.machine.study.output import (
 from nivel.model import Model
 from nivel.results.analyses.efforts import Efforts
 from nivel.results.analyses.linear_model import LinearModel
-from nivel.results.curve import Curve, curve, curve_of
-from nivel.results.reductions import REDUCTIONS
+from nivel.results.curve import REDUCTIONS, Curve, curve, curve_of
 from nivel.results.result import Result
 from nivel.results.trust import amount
 from nivel.words.wording import unknown_word

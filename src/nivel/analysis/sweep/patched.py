@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from nivel.analysis.plan.plan import Plan, plan_run
 from nivel.analysis.preparation.memory import Array, MachineMemory, UnlikeError, in_one_piece
 from nivel.analysis.preparation.parameters import EQUAL, Numbers, Unfit, UnfitError, numbers_of
-from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.preparation.shared_loads import SharedLoads, are_open
+from nivel.analysis.preparation.preparation import Prepared, SharedLoads, are_open
 from nivel.analysis.run.attempt import header_of
 from nivel.analysis.run.dynamics import Loop, march, start_loop, taken_events
 from nivel.analysis.run.history import refer_energies

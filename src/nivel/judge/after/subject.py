@@ -21,12 +21,12 @@ from nivel.results.trust import Item
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from nivel.analysis.kinematics.singular import Singularity
+    from nivel.analysis.kinematics.drive import Singularity
     from nivel.analysis.linearise.kinks import Kink
     from nivel.analysis.plan.plan import Plan
     from nivel.analysis.preparation.preparation import Prepared
+    from nivel.analysis.run.attempt import Verified
     from nivel.analysis.run.dynamics import RunOutcome
-    from nivel.analysis.run.second_run import Verified
     from nivel.elements.joints.drivers import Driver
     from nivel.judge.after.other_elements import Compared, Pair
     from nivel.machine.machine_record import MachineRecord

@@ -8,7 +8,7 @@ from operator import attrgetter
 import numpy as np
 
 from nivel.analysis.assembly.equations import equations
-from nivel.analysis.assembly.freedoms import coordinate_derivatives, freedoms
+from nivel.analysis.assembly.named_freedoms import coordinate_derivatives, freedoms
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.elements.contacts.contact import Contact
 from nivel.elements.control.units import UnitBlock

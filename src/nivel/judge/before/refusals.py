@@ -8,7 +8,7 @@ from typing import Any
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.redundancy import Redundancy
 from nivel.analysis.curves.corners import corners_of
-from nivel.analysis.plan.combinations import screws_as_couplings
+from nivel.analysis.plan.choice import screws_as_couplings
 from nivel.errors import Fault
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.known import Contact, Contacts, Delay, Friction, Stop, TransmissionLoss

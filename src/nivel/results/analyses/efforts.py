@@ -12,9 +12,8 @@ import numpy as np
 from nivel.files.target import write_text
 from nivel.lazy import dataclass, field, provided, xarray
 from nivel.machine.core.vectors import Array
-from nivel.results.curve import TOLD, curve
+from nivel.results.curve import TOLD, curve, extreme, integral, integral_of_magnitude, peak, rms
 from nivel.results.frames.tabulated import Tabulated
-from nivel.results.reductions import extreme, integral, integral_of_magnitude, peak, rms
 from nivel.results.trust import Trust
 
 # generalised forces missing below this share are round-off

@@ -12,8 +12,20 @@ from nivel.known import Result
 from nivel.lazy import xarray
 from nivel.machine.units.quantity import expression_fault, read_quantity
 from nivel.machine.units.tree import ExpressionError
-from nivel.results.curve import TOLD, Curve, curve, curve_of, probed
-from nivel.results.reductions import Number, integral, integral_of_magnitude, largest, mean, peak, turning_values
+from nivel.results.curve import (
+    TOLD,
+    Curve,
+    Number,
+    curve,
+    curve_of,
+    integral,
+    integral_of_magnitude,
+    largest,
+    mean,
+    peak,
+    probed,
+    turning_values,
+)
 
 
 def reactions(result: Result) -> xarray.Dataset:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations
-from nivel.analysis.assembly.freedoms import coordinate_derivatives
+from nivel.analysis.assembly.named_freedoms import coordinate_derivatives
 from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Run
 from nivel.kernels.elements import friction as columns

@@ -14,10 +14,9 @@ from nivel.judge.after.report import FIXED_STEPS, FRAMES, Check, Need
 from nivel.judge.after.subject import Actuated, Positions, Run
 from nivel.judge.during.growth import fastest, held_step
 from nivel.lazy import dataclass
-from nivel.results.curve import ROUNDED, Curve, curve
+from nivel.results.curve import ROUNDED, Curve, curve, extreme
 from nivel.results.frames.contents import shape_of
 from nivel.results.frames.loads import with_probes
-from nivel.results.reductions import extreme
 from nivel.results.result import Result
 from nivel.results.trust import Item, Threshold, amount, number, worst
 

@@ -12,11 +12,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
 from nivel.analysis.progress.log import Listener
-from nivel.errors import Fault, ModelError, refuse
+from nivel.errors import Fault, ModelError, refuse, retold
 from nivel.files.reader import Origin, parse_machine, read_text
 from nivel.files.values import outside_paths
 from nivel.lazy import nivel, numpy, xarray
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.uses.references import SECTIONS
 from nivel.methods import Analysis
 from nivel.model import Model
 from nivel.settings import (
@@ -100,19 +101,9 @@ class Machine(Model):
         surroundings: Sequence[Any] = (),
         left_out: Sequence[str] = (),
     ) -> None:
-        given: dict[str, Any] = {"surroundings": tuple(surroundings), "left_out": tuple(left_out)}
-        given |= {"bodies": tuple(bodies), "beams": tuple(beams), "markers": tuple(markers), "joints": tuple(joints)}
-        given |= {"couplings": tuple(couplings), "drivers": tuple(drivers), "forces": tuple(forces)}
-        given |= {"fluids": tuple(fluids), "hydraulics": tuple(hydraulics), "inputs": tuple(inputs)}
-        given |= {
-            "states": tuple(states),
-            "control": tuple(control),
-            "sensors": tuple(sensors),
-            "events": tuple(events),
-        }
-        given |= {} if assembly is None else {"assembly": assembly}
-        given |= {} if simulation is None else {"simulation": simulation}
-        self.record = MachineRecord(name=name, description=description, gravity=gravity, **given)  # type: ignore[arg-type]
+        given: dict[str, Any] = {word: each for word, each in locals().items() if word != "self" and each is not None}
+        given |= {word: tuple(given[word]) for word in (*SECTIONS, "surroundings", "left_out")}
+        self.record = MachineRecord(**given)
         self.origin = Origin()
 
     @checked_arguments
@@ -121,8 +112,8 @@ class Machine(Model):
         plan = self._plan(self.origin.settings_outside)
         with self._compiled(nivel.analysis.plan.compilation.preparation_entries(plan.methods), listener):
             place = partial(nivel.system.joint_frames.as_placed, self.record)
-            ropes = [finding.fault for finding in nivel.judge.before.unusual.stretched_ropes(self.record, place)]
-            remarks = (*self.remarks, *self.origin.placed(ropes))
+            ropes = nivel.judge.before.unusual.stretched_ropes(self.record, place)
+            remarks = (*self.remarks, *(self.origin.placed(finding.fault) for finding in ropes))
             return replace(
                 nivel.judge.before.check.check(plan), name_notes=self.name_notes, remarks=tuple(map(str, remarks))
             )
@@ -133,9 +124,7 @@ class Machine(Model):
     ) -> MassProperties:
         """Mass, centre of mass and inertia of these bodies, or of all, as assembled, about a marker or body and along its axes."""
         with self._assembled(listener):
-            return nivel.analysis.assembly.assemble.mass_properties(
-                self.record, about, (bodies,) if isinstance(bodies, str) else tuple(bodies)
-            )
+            return nivel.analysis.assembly.assemble.mass_properties(self.record, about, tuple(_names(bodies)))
 
     @checked_arguments
     def posed(self, *, listener: Listener | None = None) -> Posing:
@@ -189,8 +178,8 @@ class Machine(Model):
         self._refuse_target(out, force)
         compile_seconds = nivel.analysis.plan.compilation.build(_entries_of(plan, chosen.record), listener)
         # what follows takes longer to import
-        paths = (sensitivities,) if isinstance(sensitivities, str) else sensitivities
-        with chosen._faults_in_file():
+        paths = _names(sensitivities)
+        with retold(chosen.origin.placed):
             if paths:
                 nivel.analysis.gradients.gradient.check_parameters(chosen, plan, paths)
             result = nivel.analysis.run.simulate.simulate(
@@ -239,10 +228,8 @@ class Machine(Model):
         nivel.files.target.check_target(
             path, what, force=force, sources=[Path(self.origin.file)] if self.origin.file else []
         )
-        try:
+        with retold(self.origin.placed):
             text, meshes, notes = written(self.record, f"{path.stem}-meshes")
-        except ModelError as error:
-            raise ModelError(self.origin.placed(error.faults)) from None
         for name, content in meshes.items():
             mesh = path.parent / name
             mesh.parent.mkdir(exist_ok=True)
@@ -269,9 +256,7 @@ class Machine(Model):
         """
         plan = self._plan({}, stepwise=True)
         with self._compiled(nivel.analysis.plan.compilation.run_entries(plan), listener):
-            return nivel.c_library.writer.write_c_library(
-                plan, Path(folder), (select,) if isinstance(select, str) else select, platform
-            )
+            return nivel.c_library.writer.write_c_library(plan, Path(folder), _names(select), platform)
 
     @checked_arguments
     def export_fmu(
@@ -293,9 +278,7 @@ class Machine(Model):
         Raises ModelError where steps are not fixed, a Python law takes part, a compiler is missing, or a parameter changes more than
         numbers that follow from it by a formula, such as the assembly.
         """
-        chosen, paths, systems = (
-            (each,) if isinstance(each, str) else each for each in (select, parameters, platforms)
-        )
+        chosen, paths = _names(select), _names(parameters)
         if fmi not in nivel.fmu.writer.VERSIONS:
             raise ModelError(Fault.at("fmi", f"the version of FMI is 3 or 2, got {shown(fmi)}"))
         self._refuse_target(path, force)
@@ -309,7 +292,7 @@ class Machine(Model):
                 nominal,
                 Path(fspath(path)),
                 version=fmi,
-                platforms=systems,
+                platforms=_names(platforms),
                 parameters=given,
                 vary=lambda changes: nivel.c_library.exported.export(
                     same.with_values(changes)._plan({}, stepwise=True), "an FMU", chosen
@@ -352,15 +335,13 @@ class Machine(Model):
         verdict and its `headline`. The compiled code runs on dual numbers, seven parameters at a time; that is compiled on first use.
         Raises ModelError where names, paths or methods have no gradients, SolveError where a run fails.
         """
-        given = _given(settings)
-        chosen = self.with_settings(given)
-        plan = chosen._plan({*given, *self.origin.settings_outside})
-        with chosen._compiled(_entries_of(plan, chosen.record), listener):  # what follows takes longer to import
+        chosen, plan = self._ready(settings, listener)
+        with retold(chosen.origin.placed):  # what follows takes longer to import
             return nivel.analysis.gradients.gradient.gradient(
                 chosen,
                 plan,
-                (outputs,) if isinstance(outputs, str) else outputs,
-                (parameters,) if isinstance(parameters, str) else parameters,
+                _names(outputs),
+                _names(parameters),
                 checked=check,
                 source=self.origin.source,
                 listener=listener,
@@ -383,27 +364,24 @@ class Machine(Model):
         ``sims.step({"push": forces})``, ``sims["hinge.angle"]`` (n,); values : lists of n values by path, other numbers of each copy.
         Raises ModelError.
         """
-        given = _given(settings)
-        chosen = self.with_settings(given)
-        plan = chosen._plan({*given, *self.origin.settings_outside}, stepwise=True)
-        nivel.analysis.plan.compilation.build(_entries_of(plan, chosen.record), listener)
+        chosen, plan = self._ready(settings, listener, stepwise=True)
         if n is None:
             if values:
                 raise ModelError(Fault.at("values", "lists of values make several copies: say how many, n=3"))
-            with chosen._faults_in_file():
+            with retold(chosen.origin.placed):
                 return nivel.analysis.run.stepping.Simulation(plan, source=self.origin.source, record=record)
         if n < 1 or record:
             message = "copies keep no frames" if record else f"a number of copies of at least 1 was expected, got {n}"
             raise ModelError(Fault.at("record" if record else "n", message))
         if not values:
-            with chosen._faults_in_file():
+            with retold(chosen.origin.placed):
                 return nivel.analysis.run.many.Simulations([plan] * n, source=self.origin.source)
         rows = nivel.analysis.sweep.variants.rows_of(values)
         if len(rows) != n:
             raise ModelError(Fault.at("values", f"lists of {n} values are needed; there are {len(rows)}"))
         machines = [chosen.with_values(row) for row in rows]
         plans = [each._plan(each.origin.settings_outside, stepwise=True) for each in machines]
-        with chosen._faults_in_file():
+        with retold(chosen.origin.placed):
             return nivel.analysis.run.many.Simulations(plans, source=self.origin.source)
 
     @checked_arguments
@@ -458,13 +436,8 @@ class Machine(Model):
         chosen, rows = self.with_settings(given), nivel.analysis.sweep.variants.rows_of(values)
         plan = chosen.with_values(rows[0])._plan({*given, *self.origin.settings_outside})
         nivel.analysis.plan.compilation.build(_entries_of(plan, chosen.record), listener)
-        names = (save,) if isinstance(save, str) else tuple(save)
         return nivel.analysis.sweep.batch.run_batch(
-            chosen,
-            rows,
-            names,
-            threads=threads,
-            listener=listener or Listener(),
+            chosen, rows, tuple(_names(save)), threads=threads, listener=listener or Listener()
         )
 
     @checked_arguments
@@ -506,7 +479,7 @@ class Machine(Model):
         ``optimum.machine.simulate()``. Raises ModelError where words, paths or limits are not known, or no start has an objective;
         SolveError where that is because runs fail.
         """
-        chosen = self._ready(settings, listener, analysis)
+        chosen = self._searched(settings, listener, analysis)
         return nivel.analysis.optimise.optimise.optimise(
             chosen,
             nivel.analysis.optimise.evaluations.box_of(chosen, parameters),
@@ -564,7 +537,7 @@ class Machine(Model):
         objective, outputs, iterations, accuracy, exact_slopes, settings : as in `optimise`. Raises ModelError as `optimise` does,
         and for inputs without a range.
         """
-        chosen = self._ready(settings, listener)
+        chosen, _ = self._ready(settings, listener)
         course = nivel.analysis.optimise.inputs.course_of(chosen.record, inputs, float(chosen.simulation.duration))
         machine = Machine.from_record(course.record)
         found = nivel.analysis.optimise.optimise.optimise(
@@ -614,7 +587,7 @@ class Machine(Model):
         apart, `found.on_bounds` those that would go on beyond their bounds, which have no deviation.
         Raises ModelError where the file, a name or a path is not known, or no start has results at all measurements.
         """
-        chosen = self._ready(settings, listener, analysis)
+        chosen = self._searched(settings, listener, analysis)
         return nivel.analysis.optimise.identify.identify(
             chosen,
             nivel.analysis.optimise.evaluations.box_of(chosen, parameters),
@@ -634,14 +607,19 @@ class Machine(Model):
         """The run with these values, with the slopes of all that it computes with respect to them."""
         return self.with_values(values).simulate(verify=False, sensitivities=list(values))
 
-    def _ready(self, settings: RunSettingsDict, listener: Listener | None, analysis: str = "run") -> Machine:
-        """The machine with these settings, whose runs are compiled; other analyses compile themselves."""
+    def _ready(
+        self, settings: Mapping[str, Any], listener: Listener | None, *, stepwise: bool = False
+    ) -> tuple[Machine, Plan]:
+        """The machine with these settings, and its run, which is compiled."""
         given = _given(settings)
         chosen = self.with_settings(given)
-        if analysis == "run":
-            plan = chosen._plan({*given, *self.origin.settings_outside})
-            nivel.analysis.plan.compilation.build(_entries_of(plan, chosen.record), listener)
-        return chosen
+        plan = chosen._plan({*given, *self.origin.settings_outside}, stepwise=stepwise)
+        nivel.analysis.plan.compilation.build(_entries_of(plan, chosen.record), listener)
+        return chosen, plan
+
+    def _searched(self, settings: RunSettingsDict, listener: Listener | None, analysis: str) -> Machine:
+        """The machine with these settings, whose runs are compiled; other analyses compile themselves."""
+        return self._ready(settings, listener)[0] if analysis == "run" else self.with_settings(_given(settings))
 
     @checked_arguments
     def statics(
@@ -668,7 +646,7 @@ class Machine(Model):
             nivel.machine.settings.analyses.StaticsSettings, "statics", own | _given(settings)
         )
         neutral, chosen = nivel.analysis.statics.free_coordinates.for_statics(self.record, asked)
-        with self._faults_in_file():
+        with retold(self.origin.placed):
             methods = nivel.analysis.plan.plan.methods_of(neutral, "newton-euler", chosen)
         self._refuse_target(out, force)
         entries = nivel.analysis.plan.compilation.statics_entries(methods)
@@ -701,7 +679,7 @@ class Machine(Model):
         the positions until then, its message says what holds which driver.
         """
         asked = nivel.machine.settings.analyses.kinematics_settings(self.record, settings)
-        with self._faults_in_file():
+        with retold(self.origin.placed):
             refuse(nivel.judge.before.refusals.faults_of(self.record, nivel.judge.before.analyses.OF_KINEMATICS))
             nivel.analysis.plan.compilation.build(
                 nivel.analysis.plan.compilation.assembly_entries(self.record), listener
@@ -788,7 +766,7 @@ class Machine(Model):
             nivel.machine.settings.analyses.InverseSettings, "inverse", settings
         )
         motion, trajectory, positions = asked.motion, asked.trajectory, asked.positions
-        with self._faults_in_file():
+        with retold(self.origin.placed):
             refuse(nivel.judge.before.refusals.faults_of(self.record, nivel.judge.before.analyses.OF_INVERSE))
             record = (
                 self.record
@@ -829,7 +807,7 @@ class Machine(Model):
         coordinates : relative (default where there are joints) or absolute. Contacts, and friction of joints that sticks, have no part in
         them: `left_out` names them. Raises ModelError where the machine cannot be assembled.
         """
-        with self._faults_in_file():
+        with retold(self.origin.placed):
             record, left_out = nivel.analysis.plan.plan.without_sticking(self.record)
             faults = nivel.judge.before.analyses.not_smooth(record)
             refuse(each for each in faults if each.path.partition(".")[0] not in ("control", "states"))
@@ -918,7 +896,7 @@ class Machine(Model):
             nivel.machine.settings.analyses.LineariseSettings, "linearise", own | _given(settings)
         )
         at_rest = asked.about == nivel.machine.settings.analyses.EQUILIBRIUM
-        with self._faults_in_file():
+        with retold(self.origin.placed):
             refuse(
                 nivel.judge.before.analyses.not_smooth(
                     self.record,
@@ -974,7 +952,7 @@ class Machine(Model):
         grid = nivel.analysis.compare.compare_grid.lay_out(chosen.record, axes, given)
         nivel.analysis.compare.compare_grid.compile_grid(chosen.record, grid, listener)
         # what follows takes longer to import
-        with chosen._faults_in_file():
+        with retold(chosen.origin.placed):
             return nivel.analysis.compare.compare.compare(
                 chosen.record, grid, repeat=repeat, journal=journal, listener=listener
             )
@@ -985,7 +963,7 @@ class Machine(Model):
         Raises ModelError where settings do not go together or have no effect though `given`, or joints do not meet the
         beams that they slide along.
         """
-        with self._faults_in_file():
+        with retold(self.origin.placed):
             return nivel.analysis.plan.plan.plan_run(self.record, given, stepwise=stepwise)
 
     def _refuse_target(self, out: str | PathLike[str] | None, force: bool) -> None:
@@ -995,18 +973,10 @@ class Machine(Model):
             nivel.files.target.check_target(Path(fspath(out)), "result file", force=force, sources=sources)
 
     @contextmanager
-    def _faults_in_file(self) -> Iterator[None]:
-        """Faults that the assembly finds get the line of the element in the machine's file."""
-        try:
-            yield
-        except ModelError as error:
-            raise ModelError(self.origin.placed(error.faults)) from error
-
-    @contextmanager
     def _compiled(self, entries: Sequence[Entry], listener: Listener | None) -> Iterator[float]:
         """With the machine code of these entries, and faults at their lines. It gives the wall time [s] that this took."""
         took = nivel.analysis.plan.compilation.build(entries, listener)
-        with self._faults_in_file():
+        with retold(self.origin.placed):
             yield took
 
     def _assembled(self, listener: Listener | None) -> AbstractContextManager[float]:
@@ -1069,8 +1039,12 @@ def _sweep(
 def code_of(machine: Machine, analysis: str, listener: Listener | None) -> None:
     """Compile what runs of variants of this machine need; other analyses do it themselves. Raises ModelError."""
     if analysis == "run":
-        plan = machine._plan(machine.origin.settings_outside)
-        nivel.analysis.plan.compilation.build(_entries_of(plan, machine.record), listener)
+        machine._ready({}, listener)
+
+
+def _names(given: Sequence[str] | str) -> Sequence[str]:
+    """Names, of which one may be given alone."""
+    return (given,) if isinstance(given, str) else given
 
 
 def _given(settings: Mapping[str, Any]) -> dict[str, Any]:

@@ -9,8 +9,8 @@ Anything else that escapes is a defect of nivel.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -90,9 +90,23 @@ class SolveError(NivelError):
 
 
 @contextmanager
-def located(place: str) -> Iterator[None]:
-    """Faults without a place that come up inside get this one."""
+def retold(tell: Callable[[Fault], Fault]) -> Iterator[None]:
+    """Faults that come up inside are told as `tell` has them."""
     try:
         yield
     except ModelError as error:
-        raise ModelError([replace(fault, path=fault.path or place) for fault in error.faults]) from error
+        raise ModelError(map(tell, error.faults)) from None
+
+
+def located(place: str) -> AbstractContextManager[None]:
+    """Faults without a place that come up inside get this one."""
+    return retold(lambda fault: replace(fault, path=fault.path or place))
+
+
+@contextmanager
+def gathered(faults: list[Fault], tell: Callable[[Fault], Fault] = lambda fault: fault) -> Iterator[None]:
+    """Faults that come up inside are added to `faults`, as `tell` has them, and what is left of the block is left out."""
+    try:
+        yield
+    except ModelError as error:
+        faults += map(tell, error.faults)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import cached_property
 from html import escape
 from os import PathLike
-from typing import Any, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
 from nivel.elements.joints.joint import Joint
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, retold
 from nivel.files.outline import Known
 from nivel.files.reader import Origin
 from nivel.files.scope import FileNames, read_known, read_name_notes, read_names
@@ -44,91 +44,59 @@ from nivel.words.arguments import checked_arguments
 from nivel.words.wording import unknown_word
 
 Element = TypeVar("Element", bound=Record)
+Value = TypeVar("Value")
+
+
+class Kept(property, Generic[Value]):
+    """What the record of a machine has under the same name."""
+
+    def __init__(self, doc: str) -> None:
+        super().__init__(self._of)
+        self.__doc__ = doc
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def _of(self, part: Elements) -> Any:
+        return getattr(part.record, self._name)
+
+    if TYPE_CHECKING:
+
+        def __get__(self, part: Any, owner: type | None = None) -> Value: ...  # type: ignore[override]
+
+
+class Section(Kept[Named[Element]]):
+    """The elements of a section by name. singular : one of them in words."""
+
+    def __init__(self, singular: str, doc: str) -> None:
+        super().__init__(doc)
+        self._singular = singular
+
+    def _of(self, part: Elements) -> Named[Element]:
+        mine = [each for each in super()._of(part) if str(getattr(each, "name", "")).startswith(part._prefix)]
+        return Named(self._singular, mine, part._prefix)
 
 
 class Elements:
     """The elements of a machine, or of a part of it, by kind and name."""
 
     record: MachineRecord
+    _prefix = ""
 
-    @property
-    def _prefix(self) -> str:
-        """Of the names of a part."""
-        return ""
-
-    def _named(self, singular: str, records: Sequence[Element]) -> Named[Element]:
-        mine = [each for each in records if str(getattr(each, "name", "")).startswith(self._prefix)]
-        return Named(singular, mine, self._prefix)
-
-    @property
-    def bodies(self) -> Named[Body]:
-        """Bodies by name."""
-        return self._named("body", self.record.bodies)
-
-    @property
-    def beams(self) -> Named[Beam]:
-        """Beams by name."""
-        return self._named("beam", self.record.beams)
-
-    @property
-    def markers(self) -> Named[Marker]:
-        """Markers by name."""
-        return self._named("marker", self.record.markers)
-
-    @property
-    def joints(self) -> Named[Joint]:
-        """Joints by name."""
-        return self._named("joint", self.record.joints)
-
-    @property
-    def couplings(self) -> Named[Coupling]:
-        """Couplings by name: gears, belts, racks and linear couplings."""
-        return self._named("coupling", self.record.couplings)
-
-    @property
-    def drivers(self) -> Named[Driver]:
-        """Drivers by name."""
-        return self._named("driver", self.record.drivers)
-
-    @property
-    def forces(self) -> Named[Force]:
-        """Forces by name, of all types."""
-        return self._named("force", self.record.forces)
-
-    @property
-    def fluids(self) -> Named[AnyFluid]:
-        """Fluids by name."""
-        return self._named("fluid", self.record.fluids)
-
-    @property
-    def hydraulics(self) -> Named[HydraulicComponent]:
-        """Components of hydraulic circuits by name."""
-        return self._named("component", self.record.hydraulics)
-
-    @property
-    def inputs(self) -> Named[Input]:
-        """Inputs by name."""
-        return self._named("input", self.record.inputs)
-
-    @property
-    def states(self) -> Named[State]:
-        """States beside the motion, by name."""
-        return self._named("state", self.record.states)
-
-    @property
-    def control(self) -> Named[ControlBlock]:
-        """Blocks of the control by name."""
-        return self._named("block", self.record.control)
-
-    @property
-    def sensors(self) -> Named[Sensor]:
-        """Sensors by name."""
-        return self._named("sensor", self.record.sensors)
-
-    @property
-    def events(self) -> Named[Event]:
-        """Events by name."""
-        return self._named("event", self.record.events)
+    bodies: Section[Body] = Section("body", "Bodies by name.")
+    beams: Section[Beam] = Section("beam", "Beams by name.")
+    markers: Section[Marker] = Section("marker", "Markers by name.")
+    joints: Section[Joint] = Section("joint", "Joints by name.")
+    couplings: Section[Coupling] = Section("coupling", "Couplings by name: gears, belts, racks and linear couplings.")
+    drivers: Section[Driver] = Section("driver", "Drivers by name.")
+    forces: Section[Force] = Section("force", "Forces by name, of all types.")
+    fluids: Section[AnyFluid] = Section("fluid", "Fluids by name.")
+    hydraulics: Section[HydraulicComponent] = Section("component", "Components of hydraulic circuits by name.")
+    inputs: Section[Input] = Section("input", "Inputs by name.")
+    states: Section[State] = Section("state", "States beside the motion, by name.")
+    control: Section[ControlBlock] = Section("block", "Blocks of the control by name.")
+    sensors: Section[Sensor] = Section("sensor", "Sensors by name.")
+    events: Section[Event] = Section("event", "Events by name.")
 
 
 @dataclass(frozen=True, repr=False)
@@ -146,9 +114,7 @@ class Subsystem(Elements):
         """What stands before the names of its elements in the machine."""
         return self.assembly.prefix
 
-    @property
-    def _prefix(self) -> str:
-        return self.assembly.prefix
+    _prefix = prefix
 
     def __repr__(self) -> str:
         counts = [f"{len(getattr(self, section))} {section}" for section in SECTIONS if len(getattr(self, section))]
@@ -159,6 +125,11 @@ class Model(Elements):
     """A machine as a model that can be read, changed and written. Nothing changes a machine; what changes it returns another."""
 
     origin: Origin
+    name: Kept[str] = Kept("Name of the machine.")
+    description: Kept[str] = Kept("What the machine is, in the words of its author.")
+    gravity: Kept[tuple[float, float, float]] = Kept("[m/s²] global axes.")
+    assembly: Kept[AssemblySettings] = Kept("How the machine is assembled.")
+    simulation: Kept[SimulationSettings] = Kept("How the machine is simulated unless a run has settings of its own.")
 
     @classmethod
     @checked_arguments
@@ -174,31 +145,6 @@ class Model(Elements):
             message = f"nothing changes a machine; write `machine = machine.replace({name}=…)`, which gives another one"
             raise ModelError(Fault.at(name, message))
         object.__setattr__(self, name, value)
-
-    @property
-    def name(self) -> str:
-        """Name of the machine."""
-        return self.record.name
-
-    @property
-    def description(self) -> str:
-        """What the machine is, in the words of its author."""
-        return self.record.description
-
-    @property
-    def gravity(self) -> tuple[float, float, float]:
-        """[m/s²] global axes."""
-        return self.record.gravity
-
-    @property
-    def assembly(self) -> AssemblySettings:
-        """How the machine is assembled."""
-        return self.record.assembly
-
-    @property
-    def simulation(self) -> SimulationSettings:
-        """How the machine is simulated unless a run has settings of its own."""
-        return self.record.simulation
 
     @cached_property
     def _file_names(self) -> FileNames:
@@ -230,7 +176,7 @@ class Model(Elements):
     @property
     def remarks(self) -> tuple[Fault, ...]:
         """Values that are far from those of real machines, with the place where each stands; the machine is computed as it is."""
-        return tuple(self.origin.placed(finding.fault for finding in remarks(self.record)))
+        return tuple(self.origin.placed(finding.fault) for finding in remarks(self.record))
 
     @property
     def parameters(self) -> Mapping[str, float]:
@@ -283,17 +229,13 @@ class Model(Elements):
         # what was set from outside of the file is asked for as well, and never left behind
         outside, origin = self.origin.settings_outside, self.origin.with_settings(settings)
         asked = {name: getattr(self.record.simulation, name) for name in outside if name in ("rotations", "baumgarte")}
-        try:
+        with retold(lambda fault: origin.placed(origin.of_settings(fault, settings))):
             simulation = changed(self.record.simulation, {**asked, **settings})
-        except ModelError as error:
-            raise ModelError(origin.placed(origin.of_settings(fault, settings) for fault in error.faults)) from None
         old = self.record.simulation
         if simulation.cut == old.cut and simulation.free == old.free:
             return type(self).from_record(self.record.with_simulation(simulation), origin)
-        try:
+        with retold(origin.placed):
             return type(self).from_record(self.record.replace(simulation=simulation), origin)
-        except ModelError as error:
-            raise ModelError(origin.placed(error.faults)) from None
 
     @checked_arguments
     def replace(self, *elements: Record, **words: Any) -> Self:
@@ -340,10 +282,8 @@ class Model(Elements):
         return self._edited(more)
 
     def _edited(self, changes: Mapping[str, Any]) -> Self:
-        try:
+        with retold(lambda fault: replace(fault, file="", line=0, column=0)):
             record = self.record.replace(**changes)
-        except ModelError as error:
-            raise ModelError([replace(fault, file="", line=0, column=0) for fault in error.faults]) from None
         return type(self).from_record(record, self.origin.edited())
 
     @checked_arguments

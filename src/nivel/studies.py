@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from nivel.analysis.progress.log import Listener
 from nivel.api import Machine, code_of, load
-from nivel.errors import Fault, ModelError, SolveError, refuse
+from nivel.errors import Fault, ModelError, SolveError, gathered, refuse, retold
 from nivel.files.sources import beside, read_bytes, read_text
 from nivel.files.study_file import StudyFile, study_and_faults
 from nivel.known import Identified, Journal, Optimum, Resolved, Variants
@@ -46,13 +46,11 @@ class Study:
     def variants(self) -> Variants:
         """The values of every variant. Raises ModelError where nothing varies, or too much."""
         record = self.file.record
-        try:
+        place = ("parameters",) if record.parameters else ()
+        with retold(lambda fault: self.file.fault(place, fault.message)):
             return nivel.analysis.sweep.variants.draw(
                 self.resolved.parameters, record.design, record.samples, record.seed
             )
-        except ModelError as error:
-            place = ("parameters",) if record.parameters else ()
-            raise ModelError([self.file.fault(place, each.message) for each in error.faults]) from None
 
     @checked_arguments
     def sweep(
@@ -330,10 +328,9 @@ def load_study(
     study, faults = study_and_faults(read_text(file), file, overrides=dict(overrides or {}), allow_code=allow_code)
     if study is None:
         raise ModelError(faults)
-    try:
+    resolved = None
+    with gathered(faults):
         resolved = nivel.analysis.sweep.resolution.resolve(study, load(study.machine_file, allow_code=allow_code))
-    except ModelError as error:
-        raise ModelError([*faults, *error.faults]) from None
     refuse(faults)
     return Study(resolved)
 

@@ -18,7 +18,7 @@ import cart
 from browsing import served
 from nivel.errors import ModelError
 from nivel.integrate.loop.paced import DONE
-from nivel.live.datagrams import Counts, Datagrams, packed_inputs, place_of
+from nivel.live.datagrams import HEAD, INPUTS, VERSION, Counts, Datagrams, place_of
 from nivel.live.preparation import SILENCE
 from nivel.live.source import ONLY_WATCH, LiveSource
 from nivel.system.layout import frame_layout
@@ -34,6 +34,11 @@ def live():
     with cart.running() as session, served(LiveSource(session)) as viewing:
         session.command("run")
         yield session, viewing
+
+
+def packed_inputs(values, sequence, stamp):
+    """A datagram of inputs."""
+    return HEAD.pack(INPUTS, VERSION, len(values), sequence, 0, stamp) + np.asarray(values, "<f8").tobytes()
 
 
 def connected(viewing):

@@ -14,10 +14,11 @@ from nivel.errors import ModelError
 from nivel.flexible.body.body import moving_surface
 from nivel.flexible.body.body_file import write_body
 from nivel.view.capture import Look, still
-from nivel.view.package import STEPS, Block, from_bytes, unpacked
+from nivel.view.package import STEPS, Block
 from nivel.view.page import write_scene
 from nivel.view.playback import ALONE, SMALL, playback
 from nivel.view.sources import Playback
+from packages import from_bytes, unpacked
 from test_flexible import MACHINE
 
 STOPS = [(0.16, 0.2, 0.46), (0.15, 0.41, 0.61), (0.14, 0.6, 0.58), (0.52, 0.77, 0.38), (0.98, 0.86, 0.32)]

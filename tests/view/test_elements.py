@@ -18,10 +18,10 @@ from nivel.looks.poses import rotation
 from nivel.looks.solids import colour_of
 from nivel.report.picture import machine_picture
 from nivel.results import Memory
-from nivel.view.package import Block, from_bytes
+from nivel.view.package import Block
 from nivel.view.page import write_scene
 from nivel.view.playback import ALONE, _owner, playback
-from nivel.view.sources import Live
+from packages import Live, from_bytes
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 MACHINE = """

@@ -7,9 +7,9 @@ import pytest
 
 import nivel
 from browsing import drawn, watched
-from nivel.view.package import from_bytes
 from nivel.view.page import write_scene
 from nivel.view.playback import ALONE, playback
+from packages import from_bytes
 from playing import assert_plays_and_scrubs
 from test_flexible_examples import MACHINES, folder, machine  # noqa: F401
 

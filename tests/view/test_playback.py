@@ -13,9 +13,9 @@ from nivel.errors import ModelError
 from nivel.results import Memory
 from nivel.view import records
 from nivel.view.arrows import Moments, violation_vectors
-from nivel.view.package import from_bytes, unpacked
 from nivel.view.page import scene_html
 from nivel.view.playback import ALONE, SERVED, SMALL, Budget, playback
+from packages import from_bytes, unpacked
 
 TIME = np.linspace(0.0, 8.0, 801)
 

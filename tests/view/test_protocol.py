@@ -15,11 +15,12 @@ from hypothesis.extra.numpy import arrays
 
 from nivel.view import records
 from nivel.view.frames import layout, message, rows
-from nivel.view.package import Block, from_bytes, to_bytes, unpacked
+from nivel.view.package import Block, to_bytes
 from nivel.view.page import built
 from nivel.view.records import PROTOCOL, Move, Moved, Package, Reset, Shown, Want
 from nivel.view.stream import LARGEST, NotUnderstoodError, read_message, said
 from nivel.view.typescript import typescript
+from packages import from_bytes, unpacked
 
 ROOT = Path(__file__).parent.parent.parent
 GENERATED = ROOT / "viewer" / "src" / "generated" / "records.ts"

@@ -21,7 +21,8 @@ from nivel.view import stream
 from nivel.view.package import Block
 from nivel.view.records import COLUMN, FRAME, PACKAGE
 from nivel.view.server import MOST_PAGES, Address, Viewing, start
-from nivel.view.sources import Live, Playback
+from nivel.view.sources import Playback
+from packages import Live
 from patience import PATIENCE
 
 

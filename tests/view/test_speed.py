@@ -9,7 +9,7 @@ import pytest
 import many_bodies
 from browsing import chromium, drawn, served, until, watched
 from nivel.view.package import Block
-from nivel.view.sources import Live
+from packages import Live
 
 LEARNING = 48  # pictures in which the page finds out what this machine can do
 

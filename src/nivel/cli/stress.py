@@ -11,7 +11,7 @@ import click
 
 from nivel.cli.options import FILE, file_argument, force_option, json_option, listed, quiet_option
 from nivel.cli.progress import console, progress_stage
-from nivel.errors import Fault, ModelError, refuse
+from nivel.errors import Fault, gathered, refuse
 from nivel.known import RecoveredBody
 from nivel.lazy import nivel
 
@@ -107,12 +107,10 @@ def _known_nodes(found: RecoveredBody, words: tuple[str, ...]) -> list[int]:
     """Numbers of nodes that have stress, each once. Raises ModelError naming all that are unknown."""
     out, faults = {}, []
     for word in words:
-        try:
+        with gathered(faults):
             number = found.node(word)
             found.labels(number)
             out[number] = None
-        except ModelError as error:
-            faults += error.faults
     refuse(faults)
     return list(out)
 

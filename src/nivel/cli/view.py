@@ -9,7 +9,7 @@ import click
 
 from nivel.cli.options import allow_code_option, file_argument, force_option, override_option, quiet_option
 from nivel.cli.progress import progress_count
-from nivel.errors import Fault, ModelError, refuse
+from nivel.errors import Fault, ModelError, gathered, refuse
 from nivel.lazy import nivel
 
 if TYPE_CHECKING:
@@ -136,10 +136,8 @@ def _refuse_targets(targets: list[str], sources: list[str], force: bool) -> None
             films = " or ".join(nivel.view.capture.FILMS)
             faults.append(Fault.at("", f"{target}: a name ending in .html, .png, {films} was expected"))
             continue
-        try:
+        with gathered(faults):
             nivel.files.target.check_target(Path(target), "file", force=force, sources=list(map(Path, sources)))
-        except ModelError as error:
-            faults += error.faults
     refuse(faults)
 
 
@@ -159,10 +157,8 @@ def _results(
     faults: list[Fault] = []
     results = []
     for path in (file, *ghosts):
-        try:
+        with gathered(faults):
             results.append(nivel.results.Result.open(path))
-        except ModelError as error:
-            faults += error.faults
     refuse(faults)
     if vibration is not None:
         results = [each.mode(vibration) for each in results]

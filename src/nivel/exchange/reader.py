@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, Final, Literal
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, retold
 from nivel.exchange.looks import Drawing
 from nivel.exchange.machine import machine_of
 from nivel.exchange.mechanism import Mechanism
@@ -108,13 +109,11 @@ def as_machine(text: str, target: str, translation: Translation, source: str) ->
 
     Raises ModelError whose faults point to the element of the source from which they come.
     """
-    try:
+    with retold(partial(_in_source, translation, source)):
         return parse_machine(text, target)
-    except ModelError as error:
-        raise ModelError([_in_source(fault, translation, source) for fault in error.faults]) from None
 
 
-def _in_source(fault: Fault, translation: Translation, source: str) -> Fault:
+def _in_source(translation: Translation, source: str, fault: Fault) -> Fault:
     """The fault of a machine that was never written, at what its element was translated from."""
     name = fault.path.split(".")[1] if "." in fault.path else fault.path
     line, element = translation.lines.get(name, (1, ""))

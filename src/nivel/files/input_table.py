@@ -5,12 +5,13 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Mapping
+from functools import partial
 from os import PathLike, fspath
 from typing import Final
 
 import numpy as np
 
-from nivel.errors import Fault, ModelError, refuse
+from nivel.errors import Fault, ModelError, gathered, refuse
 from nivel.files.measured_file import KINDS, MeasuredError, measured_columns
 from nivel.files.reader import read_text
 from nivel.files.sources import read_bytes
@@ -100,10 +101,8 @@ def with_signals(machine: MachineRecord, signals: Mapping[str, float | str | Pat
     known, faults = [each.name for each in machine.inputs], []
     changed = {each.name: each for each in machine.inputs}
     for name, given in signals.items():
-        try:
+        with gathered(faults, partial(_of_input, name, given)):
             changed[name] = _followed(changed.get(name), given, name, known)
-        except ModelError as error:
-            faults += [_of_input(each, name, given) for each in error.faults]
     refuse(faults)
     return machine.replace(inputs=tuple(changed.values()))
 
@@ -123,7 +122,7 @@ def _signal(given: float | str | PathLike[str] | Table, name: str) -> float | Ta
         return read_input_table(given, name)
 
 
-def _of_input(fault: Fault, name: str, given: object) -> Fault:
+def _of_input(name: str, given: object, fault: Fault) -> Fault:
     """A fault of the record of an input, told with the file that the table came from."""
     if fault.line or not isinstance(given, str | PathLike):
         return fault

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -114,11 +114,8 @@ class Origin:
         """Names of the simulation settings that were set from outside of the file."""
         return frozenset(path.split(".")[1] for path in self.outside if path.startswith("simulation."))
 
-    def placed(self, faults: Iterable[Fault]) -> list[Fault]:
-        """`faults` with the places of their elements in the file, if there is one, or how they came from outside of it."""
-        return [self._placed(fault) for fault in faults]
-
-    def _placed(self, fault: Fault) -> Fault:
+    def placed(self, fault: Fault) -> Fault:
+        """`fault` with the place of its element in the file, if there is one, or how it came from outside of it."""
         if fault.line or not fault.path:
             return fault
         words = fault.path.split(".")

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, retold
 from nivel.files.outline import TOP_WORDS, Known
 from nivel.files.reader import OUTSIDE, Origin, parse_machine
 from nivel.files.writer import write_machine
@@ -112,16 +112,9 @@ def outside_paths(values: Iterable[str]) -> frozenset[str]:
 def _of_record(record: MachineRecord, values: Mapping[str, Any]) -> MachineRecord:
     if any(path.split(".")[0].strip() in ("parameters", "assemblies", "include") for path in values):
         raise ModelError(PARAMETERS)
-    try:
+    # where there is no file, no value is said to be from outside of it
+    with retold(lambda each: replace(each, file="", line=0, column=0, message=each.message.removesuffix(OUTSIDE))):
         return parse_machine(write_machine(record), overrides=values, allow_code=True)
-    except ModelError as error:
-        faults = [replace(each, file="", line=0, column=0, message=_inside(each.message)) for each in error.faults]
-        raise ModelError(faults) from None
-
-
-def _inside(message: str) -> str:
-    """The message without the remark that a value is not that of a file, where there is no file."""
-    return message.removesuffix(OUTSIDE)
 
 
 def replaced(record: MachineRecord, elements: Sequence[Record]) -> dict[str, tuple[Record, ...]]:

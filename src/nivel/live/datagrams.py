@@ -24,7 +24,7 @@ import socket
 import struct
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Final
 
@@ -62,11 +62,6 @@ class Counts:
             f"{self.taken} taken; dropped: {self.malformed} malformed, {self.others} of other senders, {self.stale} stale, "
             f"{self.excessive} excessive"
         )
-
-
-def packed_inputs(values: Sequence[float], sequence: int, stamp: int) -> bytes:
-    """A datagram of inputs."""
-    return HEAD.pack(INPUTS, VERSION, len(values), sequence, 0, stamp) + np.asarray(values, "<f8").tobytes()
 
 
 def place_of(text: str, option: str) -> tuple[str, int]:

@@ -15,7 +15,7 @@ from nivel.analysis.progress.log import Listener
 from nivel.api import Machine
 from nivel.c_library.exported import Exported, export
 from nivel.c_library.parameters import follow
-from nivel.errors import ModelError
+from nivel.errors import retold
 from nivel.files.target import check_target
 from nivel.integrate.loop.paced import drive
 from nivel.live.journal import Journal, journal_of
@@ -100,7 +100,5 @@ def export_page(
 def _planned(machine: Machine, settings: Mapping[str, Any], tick: float | None) -> Iterator[tuple[Plan, Pace]]:
     """The live run of a machine, whose faults are placed in its file."""
     pace_of(machine.record.simulation.step, tick)  # a tick that is not right is no fault of the file
-    try:
+    with retold(machine.origin.placed):
         yield live_plan(machine.record, settings, tick)
-    except ModelError as error:
-        raise ModelError(machine.origin.placed(error.faults)) from None

@@ -6,15 +6,13 @@ rotation, before anything is computed: all coordinates and formulations see the 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from difflib import get_close_matches
 
 import numpy as np
 
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
-from nivel.errors import Fault, ModelError, located, refuse
+from nivel.errors import Fault, ModelError, gathered, located, refuse
 from nivel.flexible.body.body import Interface
 from nivel.lazy import dataclass, field
 from nivel.machine.core.between import End, GlobalPoint
@@ -118,23 +116,13 @@ def refuse_unknown_interfaces(machine: MachineRecord) -> None:
     for place, marker in markers_of(machine):
         section, at = str(place[0]), int(place[1])
         if marker.interface is not None:
-            with _gathered(faults, f"{section}.{getattr(machine, section)[at].name}"):
+            with gathered(faults), located(f"{section}.{getattr(machine, section)[at].name}"):
                 interface_of(machine, marker.body, marker.interface)
     for joint in machine.joints:
         if joint.interface is not None:
-            with _gathered(faults, f"joints.{joint.name}.interface"):
+            with gathered(faults), located(f"joints.{joint.name}.interface"):
                 joint_point(machine, joint)
     refuse(faults)
-
-
-@contextmanager
-def _gathered(faults: list[Fault], place: str) -> Iterator[None]:
-    """Faults that come up inside are added, with their place where they have none."""
-    try:
-        with located(place):
-            yield
-    except ModelError as error:
-        faults += error.faults
 
 
 def marker_place(machine: MachineRecord, marker: Marker) -> tuple[str, Array, Array]:
@@ -168,7 +156,7 @@ def joint_point(machine: MachineRecord, joint: Joint) -> Array:
     points = []
     for body in joint.bodies:
         if body in machine.body_named and machine.body_named[body].flexible is not None:
-            with _gathered(faults, ""):
+            with gathered(faults):
                 interface = interface_of(machine, body, joint.interface)
                 position, axes = machine.placed[body]
                 points.append(position + axes @ interface.position)

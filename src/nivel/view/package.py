@@ -75,22 +75,6 @@ def to_bytes(package: Package, block: Block) -> bytes:
     return MAGIC + struct.pack("<I", len(text)) + text + block.content()
 
 
-def from_bytes(content: bytes) -> tuple[dict[str, Any], bytes]:
-    """The JSON and the arrays of a package."""
-    if content[:4] != MAGIC:
-        raise ValueError("not a package")
-    (length,) = struct.unpack_from("<I", content, 4)
-    return json.loads(content[8 : 8 + length]), content[8 + length :]
-
-
-def unpacked(packed: dict[str, Any], arrays: bytes) -> NDArray[Any]:
-    """An array of a package, whose `Packed` is given as in its JSON."""
-    kind = np.dtype(KINDS[packed["kind"]])
-    count = int(np.prod(packed["shape"]))
-    raw = np.frombuffer(arrays, np.uint8, count * kind.itemsize, packed["start"])
-    return np.ascontiguousarray(raw.reshape(kind.itemsize, count).T).view(kind).reshape(packed["shape"])
-
-
 def compressed_text(content: bytes) -> str:
     """Bytes as text for a page: deflated, then base64."""
     return base64.b64encode(zlib.compress(content, LEVEL)).decode()

@@ -186,34 +186,3 @@ def machine_stage(
         ],
         motion=motion,
     )
-
-
-class Live(Source):
-    """Frames that a program hands over while it runs: `show` keeps the newest, and is never waited for."""
-
-    def __init__(self, stage: records.Stage, block: Block) -> None:
-        super().__init__()
-        self._package = to_bytes(records.Package(records.PROTOCOL, "live", [stage]), block)
-        self._lock = Lock()
-        self._newest: tuple[float, Array] | None = None
-
-    def package(self) -> bytes:
-        return self._package
-
-    def show(
-        self, time: float, position: Array, orientation: Array, modal: Array | None = None, vectors: Array | None = None
-    ) -> None:
-        """A new moment: position (B, 3), orientation (B, 4), modal coordinates (M,), vectors (V, 3)."""
-        row = frames.rows(
-            position[None],
-            orientation[None],
-            None if modal is None else modal[None],
-            None if vectors is None else vectors[None],
-        )[0]
-        with self._lock:
-            self._newest = (time, row)
-        self.on_change()
-
-    def frame(self) -> tuple[float, Array] | None:
-        with self._lock:
-            return self._newest

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.errors import Fault, ModelError, refuse
+from nivel.errors import Fault, ModelError, gathered, refuse
 from nivel.lazy import dataclass
 from nivel.machine.study import output as study
 from nivel.machine.units.dimension import KINDS
@@ -160,10 +160,8 @@ def outputs_of(labels: Sequence[str], result: Result, *, curves: bool = False) -
     """What these labels ask for. curves : a name alone is the whole curve. Raises ModelError with every label that says nothing."""
     out, faults = [], []
     for label in labels:
-        try:
+        with gathered(faults, lambda fault, label=label: Fault.at(label, fault.message)):
             out.append(_output(label, result, curves))
-        except ModelError as error:
-            faults += [Fault.at(label, each.message) for each in error.faults]
     if not labels:
         faults.append(Fault.at("outputs", "no output is given: give names of the result, ['max(rod.position)']"))
     refuse(faults)

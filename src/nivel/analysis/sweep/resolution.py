@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.sweep.outputs import check_function, outputs_of
 from nivel.analysis.sweep.variants import Distribution
-from nivel.errors import Fault, ModelError, refuse
+from nivel.errors import Fault, ModelError, gathered, refuse, retold
 from nivel.files.reader import OUTSIDE
 from nivel.files.sources import beside
 from nivel.files.study_file import StudyFile
@@ -44,15 +45,14 @@ def wrong_names(study: StudyFile, machine: Model) -> Iterator[Fault]:
         result = _empty(machine)
     except ModelError:
         return
-    events = [each.name for each in machine.record.events]
+    events, faults = [each.name for each in machine.record.events], list[Fault]()
     for name, output in record.outputs.items():
         for fault in _of_output(result, name, output, events):
             yield study.fault(("outputs", name, *fault.path.split(".")), fault.message)
     for name in record.save:
-        try:
+        with gathered(faults, lambda fault: study.fault(("save",), fault.message)):
             result.selection(name)
-        except ModelError as error:
-            yield from (study.fault(("save",), each.message) for each in error.faults)
+    yield from faults
 
 
 def _of_output(result: Result, name: str, output: Output, events: list[str]) -> Iterator[Fault]:
@@ -107,23 +107,19 @@ def resolve(study: StudyFile, machine: Model) -> Resolved:
     machine = _with_fixed(study, machine, faults)
     parameters: dict[str, Distribution] = {}
     for path, parameter in record.parameters.items():
-        try:
+        with gathered(faults):
             known = _with_nominal(study, machine, path, parameter)
             _check(study, machine, path, known)
             parameters[path] = known
-        except ModelError as error:
-            faults += error.faults
     settings = {
         name: beside(study.file, value) if name in OF_FILES and isinstance(value, str) else value
         for name, value in record.settings.items()
     }
-    try:
+    with gathered(faults, partial(_of_settings, study)):
         if record.analysis == "run":
             machine, settings = machine.with_settings(settings), {}
         else:
             _check_settings(machine, record.analysis, settings)
-    except ModelError as error:
-        faults += _of_settings(study, error)
     faults += wrong_names(study, machine)
     refuse(faults)
     return Resolved(study, machine, parameters, settings)
@@ -134,12 +130,13 @@ def _with_fixed(study: StudyFile, machine: Model, faults: list[Fault]) -> Model:
     values = study.record.values
     if not values:
         return machine
-    try:
+
+    def told(fault: Fault) -> Fault:
+        near = next((path for path in values if fault.path.endswith(path) or path.endswith(fault.path)), None)
+        return study.fault(("set",) if near is None else ("set", near), _said(fault))
+
+    with gathered(faults, told):
         return machine.with_values(values)
-    except ModelError as error:
-        for fault in error.faults:
-            near = next((path for path in values if fault.path.endswith(path) or path.endswith(fault.path)), None)
-            faults.append(study.fault(("set",) if near is None else ("set", near), _said(fault)))
     return machine
 
 
@@ -147,10 +144,8 @@ def _with_nominal(study: StudyFile, machine: Model, path: str, parameter: StudyP
     if isinstance(parameter, Values) or not parameter.needs_nominal:
         return parameter
     place = ("parameters", path)
-    try:
+    with retold(lambda fault: study.fault(place, fault.message, at_key=True)):
         value = machine[path]
-    except ModelError as error:
-        raise ModelError([study.fault(place, each.message, at_key=True) for each in error.faults]) from None
     if isinstance(value, bool) or not isinstance(value, int | float):
         key = "mean" if "mean" in type(parameter).model_fields else "nominal"
         message = f"the machine file has no number there, but {shown(value)}; write `{key}`"
@@ -165,12 +160,9 @@ def _check(study: StudyFile, machine: Model, path: str, parameter: StudyParamete
         message = f"{shown(parameter.tolerance)} is less than the last digit of the nominal value {si(parameter.nominal):g}: nothing varies"
         raise ModelError([study.fault((*place, "tolerance"), message)])
     probe = Probe("values", parameter.values[0]) if isinstance(parameter, Values) else _probe(parameter)
-    try:
+    at = (*place, probe.key) if (*place, probe.key) in study.tree.places else place
+    with retold(lambda fault: study.fault(at, _said(fault).replace(f"`{probe.value}`", f"`{probe.written}`"))):
         machine.with_values({path: probe.value})
-    except ModelError as error:
-        at = (*place, probe.key) if (*place, probe.key) in study.tree.places else place
-        said = (_said(each).replace(f"`{probe.value}`", f"`{probe.written}`") for each in error.faults)
-        raise ModelError([study.fault(at, each) for each in said]) from None
 
 
 class Probe(NamedTuple):
@@ -204,10 +196,9 @@ def _check_settings(machine: Model, analysis: str, settings: Mapping[str, Any]) 
     settings_of(SETTINGS[analysis], "settings", {**own, **settings})
 
 
-def _of_settings(study: StudyFile, error: ModelError) -> Iterator[Fault]:
-    for fault in error.faults:
-        name = fault.path.removeprefix("settings.").removeprefix("simulation.").split(".")[0]
-        yield study.fault(("settings", name) if name in study.record.settings else ("settings",), _said(fault))
+def _of_settings(study: StudyFile, fault: Fault) -> Fault:
+    name = fault.path.removeprefix("settings.").removeprefix("simulation.").split(".")[0]
+    return study.fault(("settings", name) if name in study.record.settings else ("settings",), _said(fault))
 
 
 def _said(fault: Fault) -> str:

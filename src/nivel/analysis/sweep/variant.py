@@ -17,7 +17,7 @@ from nivel.analysis.run.simulate import simulate
 from nivel.analysis.sweep.outputs import Found, Number, OutputFailedError, Task, outputs_of, usual_names
 from nivel.analysis.sweep.variant_runs import JudgedRuns, Ran, VariantRuns, analysed, formulas_for, judged_runs
 from nivel.analysis.sweep.variants import Variants
-from nivel.errors import ModelError, NivelError, SolveError
+from nivel.errors import ModelError, NivelError, SolveError, retold
 from nivel.lazy import dataclass, field, replace
 from nivel.machine.study.output import Output
 from nivel.model import Model
@@ -185,10 +185,8 @@ def _end(found: Found) -> float:
 
 def _saved(result: Result, name: str) -> Saved:
     """Raises ModelError where the result has no such name."""
-    try:
+    with retold(lambda fault: replace(fault, path="save")):
         found = result.selection(name)
-    except ModelError as error:
-        raise ModelError([replace(each, path="save") for each in error.faults]) from None
     variable = result.variables[found.variable]
     where = (*found.where, *[slice(None)] * (len(variable.dims) - len(found.where)))
     dims = tuple(dim for dim, each in zip(variable.dims[1:], where[1:], strict=True) if isinstance(each, slice))

@@ -11,7 +11,7 @@ from typing import Any, Final, Protocol
 import numpy as np
 from scipy.special import ndtr, ndtri
 
-from nivel.errors import Fault, ModelError, refuse
+from nivel.errors import Fault, ModelError, gathered, refuse
 from nivel.extras import needed
 from nivel.lazy import dataclass, scipy
 from nivel.machine.core.vectors import Array
@@ -248,10 +248,8 @@ def _distributions(values: Mapping[str, Any]) -> Parameters:
             message = f"with `samples`, two bounds (1, 3) or a distribution of SciPy were expected, got {shown(given)}"
             faults.append(Fault.at(path, message))
             continue
-        try:
+        with gathered(faults):
             found[path] = settings_of(Uniform, path, {"type": "uniform", "low": low, "high": high})
-        except ModelError as error:
-            faults += error.faults
     refuse(faults)
     return found
 

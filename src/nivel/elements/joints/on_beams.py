@@ -10,7 +10,7 @@ import numpy as np
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
 from nivel.elements.joints.kind import Array, Combination, Composition, JointCoordinate, JointKind, Measured, TreeJoint
-from nivel.errors import Fault, ModelError, refuse
+from nivel.errors import Fault, ModelError, gathered, refuse
 from nivel.kernels.bodies.coordinate import ACROSS_Y, ACROSS_Z, ALONG, LEAN_X, LEAN_Y, TWIST
 from nivel.kernels.record import record as kernels
 from nivel.known import Beam
@@ -41,10 +41,8 @@ def on_beams(joints: Sequence[Joint], beams: Sequence[Beam]) -> tuple[Joint, ...
     """The joints, those that slide along one of the `beams` as `OnBeam`. Raises ModelError where their points are beside the beam."""
     named, made, faults = {beam.name: beam for beam in beams}, [], []
     for joint in joints:
-        try:
+        with gathered(faults):
             made.append(_on_beam(joint, named))
-        except ModelError as error:
-            faults += error.faults
     refuse(faults)
     return tuple(made)
 

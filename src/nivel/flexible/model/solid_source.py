@@ -12,7 +12,7 @@ import scipy.sparse as sp
 from scipy.spatial import KDTree
 
 from nivel.elements.beams.sections import Material
-from nivel.errors import ModelError
+from nivel.errors import ModelError, retold
 from nivel.extras import needed, require
 from nivel.files.apart import apart
 from nivel.flexible.model.model import Array, FiniteElementModel, PointMass, Sparse, Whole, at_nodes
@@ -172,13 +172,9 @@ def solid_model(located: Located, say: Callable[[str, float], None]) -> tuple[Fi
     for library in SOLID_LIBRARIES:
         needed(library, NEEDS)
     say("meshing the solid", 0.0)
-    try:
+    place = ("solid",) if solid.file is None else ("solid", "file")
+    with retold(lambda fault: located.fault(place, fault.message, at_key=solid.file is None)):
         mesh = meshed(solid, None if solid.file is None else located.beside(solid.file))
-    except ModelError as error:
-        place = ("solid", "file") if solid.file is not None else ("solid",)
-        raise ModelError(
-            [located.fault(place, each.message, at_key=place == ("solid",)) for each in error.faults]
-        ) from None
     say(f"assembling {len(mesh.nodes)} tetrahedra", 0.4)
     return assembled(located.record.name, mesh, located.record.materials[solid.material]), {}
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any, TypeVar, get_args
 from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler, WrapValidator
 from pydantic_core import CoreSchema, core_schema
 
-from nivel.errors import ModelError
+from nivel.errors import retold
 from nivel.lazy import dataclass, replace
 from nivel.machine.core.record import Record
 from nivel.machine.given import Given, OneNumber
@@ -21,10 +21,8 @@ Settings = TypeVar("Settings", bound=Record)
 
 def settings_of(record: type[Settings], analysis: str, given: Mapping[str, Any]) -> Settings:
     """Settings of an analysis; None stands for what was not given. Raises ModelError with everything that is wrong."""
-    try:
+    with retold(lambda fault: replace(fault, path=f"{analysis}.{fault.path}")):
         return record(**{name: value for name, value in given.items() if value is not None})
-    except ModelError as error:
-        raise ModelError(replace(fault, path=f"{analysis}.{fault.path}") for fault in error.faults) from None
 
 
 @dataclass(frozen=True)

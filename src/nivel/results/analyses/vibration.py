@@ -14,7 +14,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.errors import Fault, ModelError, refuse
+from nivel.errors import Fault, ModelError, gathered, refuse
 from nivel.files.csv_tables import CsvError, numeric_columns
 from nivel.files.measured_file import KINDS
 from nivel.files.sources import read_bytes, read_text
@@ -70,11 +70,9 @@ def spectra_of(model: LinearModel, given: Spectra) -> dict[str, Spectrum]:
         given = {name: (frequencies, levels, units) for name, (levels, units) in table.items()}
     units, out, faults = dict(zip(model.inputs, model.input_units, strict=True)), dict[str, Spectrum](), list[Fault]()
     for name, each in given.items():
-        try:
+        with gathered(faults, lambda fault, name=name: Fault.at(f"psd.{name}", fault.message)):
             port = port_of(name, model.inputs, "input")
             out[port] = _spectrum(name, each, f"{squared(units[port])}/Hz")
-        except ModelError as error:
-            faults += [Fault.at(f"psd.{name}", fault.message) for fault in error.faults]
     if not given:
         faults.append(Fault.at("psd", "no input has a spectrum: name one, {'floor': 0.01}"))
     refuse(faults)

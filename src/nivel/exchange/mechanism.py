@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from nivel.exchange.translation import Notes
 from nivel.lazy import dataclass, field
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 Triple = tuple[float, float, float]
 
 WORLD: Final = ""  # in place of the name of a link: the fixed world

@@ -12,8 +12,8 @@ from nivel.errors import ModelError
 from nivel.files.xml_source import Document, Element
 from nivel.machine.bodies.surface import joined
 from nivel.machine.core.orientation import Orientation, rotation_matrix
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 Corners = NDArray[np.int64]
 
 DEEPEST: Final = 64  # nodes inside each other

@@ -20,8 +20,8 @@ from nivel.lazy import nivel
 from nivel.machine.bodies.shape import Mesh
 from nivel.machine.bodies.surface import MOST_TRIANGLES, Triangles, joined, surface_text
 from nivel.machine.core.orientation import matrix_from_euler_parameters
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 KINDS: Final = (".stl", ".obj", ".dae", ".gltf", ".glb")
 STL_HEAD: Final = 84  # bytes before the triangles of a binary STL file
 STL_TRIANGLE: Final = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])

@@ -16,8 +16,8 @@ from nivel.extras import needed, require
 from nivel.files.apart import apart
 from nivel.lazy import dataclass
 from nivel.machine.bodies.surface import Triangles, joined
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 KINDS: Final = (".step", ".stp")
 FACETS: Final = 24.0  # of a full turn of curved surfaces
 MOST_SOLIDS: Final = 5000

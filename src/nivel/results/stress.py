@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.flexible.body import recovery
@@ -20,12 +19,11 @@ from nivel.flexible.body.body_file import fingerprint, read_body
 from nivel.flexible.body.recovery import Cycle, Envelope, HotSpot, stations_at, stress_modes
 from nivel.known import Result
 from nivel.lazy import asdict, dataclass, nivel
-from nivel.machine.core.vectors import Array
+from nivel.machine.core.vectors import Array, Whole
 from nivel.results.motion import rotation_matrices
 from nivel.results.trust import Trust
 from nivel.words.arguments import checked_arguments
 
-Whole = NDArray[np.int64]
 Told = Callable[[str, float], None]  # what is done, and which share of all is, 0 to 1
 
 CLOSE: Final = 1e-9  # of the last time: a time this near to a frame is that of the frame

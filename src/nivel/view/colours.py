@@ -15,7 +15,7 @@ from nivel.elements.beams.beam import Beam
 from nivel.errors import ModelError
 from nivel.flexible.body.body import ReducedBody, moving_surface
 from nivel.flexible.body.recovery import stress, von_mises
-from nivel.machine.core.vectors import Array
+from nivel.machine.core.vectors import Array, Whole
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.beams import felt, modes_of_nodes
 from nivel.results.result import Result
@@ -23,7 +23,6 @@ from nivel.results.stress import ATTRIBUTE, RecoveredBody
 from nivel.view.package import Block
 from nivel.view.records import Felt, Flexible, Quantity, Sections, Stress
 
-Whole = NDArray[np.int64]
 WORK: Final = 2e9  # products that the largest stress is found with: of a long run of a large body in some of the frames
 AT_ONCE: Final = 1_000_000  # stresses
 

@@ -17,11 +17,11 @@ from nivel.analysis.curves.functions import Varying, varying
 from nivel.analysis.curves.path import Path, Steps, as_seen, cut_at_switches, path_of
 from nivel.integrate.facts import IntegratorFacts
 from nivel.lazy import dataclass, replace
+from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import TIME
 from nivel.results.result import Result
 
-Array = NDArray[np.float64]
 # Parts of a step between samples, and how many parts of the run are judged by themselves.
 SAMPLES, WINDOWS = 16, 20
 # A part of the run where a function is below this share of its largest mean magnitude counts as if it had that.

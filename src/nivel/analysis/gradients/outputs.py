@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError, gathered, refuse
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array
 from nivel.machine.study import output as study
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import Quantity
@@ -24,8 +25,6 @@ from nivel.results.curve import Curve, Number, curve_of, extreme, integral_of_pr
 from nivel.results.curve import integral as whole
 from nivel.results.result import Result
 from nivel.words.wording import shown
-
-Array = NDArray[np.float64]
 
 
 class Moving(NamedTuple):

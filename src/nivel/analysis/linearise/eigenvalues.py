@@ -33,6 +33,7 @@ from scipy.sparse.csgraph import connected_components
 from nivel.analysis.linearise.reduction import ROUND_OFF, Reduction, StateSpace
 from nivel.analysis.statics.linear import symmetric
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Complex
 from nivel.system.system import Array
 
 # a mass matrix is symmetrical to this share
@@ -158,7 +159,6 @@ DRIFTS, PARTED = 1e-13, 10.0
 SMALL = 1e-3
 # a state of a rigid motion moves by more than this share of the one that moves most
 MOVES = 1e-6
-Complex = NDArray[np.complex128]
 Index = NDArray[np.intp]
 
 

@@ -20,11 +20,10 @@ from nivel.analysis.progress.log import Listener
 from nivel.analysis.sweep.outputs import Found, at_times, units_of
 from nivel.errors import Fault, ModelError, refuse
 from nivel.lazy import dataclass, replace, scipy
+from nivel.machine.core.vectors import Array
 from nivel.machine.study.any_quantity import another_measure
 from nivel.model import Model
 from nivel.results.result import Result
-
-Array = NDArray[np.float64]
 
 # residual of a variant that has no results, in standard deviations
 FAR: Final = 1e3

@@ -44,6 +44,7 @@ from nivel.kernels.record.record import (
     Tree,
     Watched,
 )
+from nivel.machine.core.vectors import Array
 
 
 class Role(Enum):
@@ -174,8 +175,6 @@ def _computed(functions: Functions) -> NDArray[np.bool_]:
                 instructions += LENGTH
     return out
 
-
-Array = NDArray[np.float64]
 
 AGREES: Final = 1e-11  # share of its scale by which numbers of machines that are the same may differ
 

@@ -26,11 +26,11 @@ from nivel.integrate.loop.run import DONE_STEPS, EVENTS, FRAMES, HORIZON, INTERV
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.output.observe import observe
 from nivel.lazy import dataclass, replace
+from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.contents import MemoryContents
 from nivel.results.result import Result
 
-Array = NDArray[np.float64]
 # Steps of the first stretch, and of the longest one; each is twice as long as the one before. Frames of one, about.
 FIRST, LONGEST, MOST_FRAMES = 8, 512, 20_000
 # Places in a step that are looked at, a multiple of four; how often a stretch is done again.

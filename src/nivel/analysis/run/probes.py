@@ -15,10 +15,10 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.integrate.loop.run import EVERY, HORIZON, SHOWN, TIME, Run
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.output.observe import observe
+from nivel.machine.core.vectors import Array
 from nivel.results.curve import RATES, ROUNDED, STENCIL, TOLD, Curve, curve, hermite
 from nivel.system.layout import FrameLayout
 
-Array = NDArray[np.float64]
 # Probes of a run, and frames about each that make its curve.
 PROBES, NEAR = 32, 10
 GOLDEN = 0.5 * (sqrt(5.0) - 1.0)

@@ -10,9 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.flexible.body.invariants import Invariants
 from nivel.lazy import dataclass, field, replace
-
-Whole = NDArray[np.int64]
-Array = NDArray[np.float64]
+from nivel.machine.core.vectors import Array, Triangles, Whole
 
 
 @dataclass(frozen=True)
@@ -209,8 +207,6 @@ class ReducedBody:
                 return each
         raise KeyError(name)
 
-
-Triangles = NDArray[np.uint32]
 
 # Bars without a surface of their own are drawn this thick, as a share of the extent of the body.
 THICKNESS: Final = 0.012

@@ -11,14 +11,11 @@ from itertools import pairwise
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.flexible.body.body import ReducedBody, StressModes
 from nivel.lazy import dataclass
-
-Array = NDArray[np.float64]
-Whole = NDArray[np.int64]
+from nivel.machine.core.vectors import Array, Whole
 
 BLOCK: Final = 4_000_000  # numbers of stress at once: 32 MB
 

@@ -16,8 +16,8 @@ from nivel.errors import ModelError
 from nivel.files.target import write_file
 from nivel.flexible.body.body import ReducedBody
 from nivel.flexible.body.recovery import displacement, signed_principal, stress, von_mises
+from nivel.machine.core.vectors import Array
 
-Array = NDArray[np.float64]
 State = tuple[float, Array, dict[str, Array]]  # time, places of nodes, fields at them
 
 LINE, TRIANGLE, TETRAHEDRON, TETRAHEDRON_10 = 3, 5, 10, 24  # VTK's numbers of cells

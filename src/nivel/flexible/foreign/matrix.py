@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from nivel.flexible.model.model import Sparse
 from nivel.lazy import dataclass, scipy
+from nivel.machine.core.vectors import Whole
 
-Whole = NDArray[np.int64]
 Label = tuple[int, int]  # node, direction 1 … 6
 
 

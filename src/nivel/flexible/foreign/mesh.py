@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Final, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from nivel.flexible.foreign.deck import Card, Line
 from nivel.flexible.foreign.elasticity import Law, Orientation
 from nivel.flexible.foreign.matrix import fortran_number
 from nivel.lazy import dataclass, field
+from nivel.machine.core.vectors import Array, Whole
 
 SHELLS: Final = {"S3": 3, "S4": 4, "S4R": 4, "S6": 6, "S8": 8, "S8R": 8}  # types of shells, with their number of nodes
 
@@ -68,9 +66,6 @@ def shell_section(card: Card, thickness: str) -> Section:
     names = card.name("ELSET"), card.name("MATERIAL"), card.name("ORIENTATION")
     return Section(*names, card.line, height, offset, problem)
 
-
-Array = NDArray[np.float64]
-Whole = NDArray[np.int64]
 
 SOLIDS: Final = {
     "C3D4": 4,

@@ -16,12 +16,10 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from nivel.lazy import dataclass, field, replace
+from nivel.machine.core.vectors import Array, Whole
 
 # a scipy.sparse.csr_array or csc_array with two dimensions; SciPy's own types know neither their shape nor their elements
 Sparse = Any
-
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -154,8 +152,6 @@ def rigid_modes(position: Array, freedoms: NDArray[np.int64], count: int, about:
         R[freedoms[has[:, b], b], 3 + a] = -x[has[:, b], c]
     return R
 
-
-Whole = NDArray[np.int64]
 
 AXES = ("x", "y", "z", "rx", "ry", "rz")
 

@@ -13,13 +13,11 @@ import numpy as np
 import scipy.linalg as la
 import scipy.sparse as sp
 import scipy.sparse.linalg as spl
-from numpy.typing import NDArray
 
 from nivel.errors import SolveError
 from nivel.flexible.model.model import Sparse
+from nivel.machine.core.vectors import Array, Whole
 
-Array = NDArray[np.float64]
-Whole = NDArray[np.int64]
 Solve = Callable[[Array], Array]
 
 DENSE: Final = 400  # freedoms up to which modes are computed with full matrices

@@ -17,9 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.lazy import dataclass
+from nivel.machine.core.vectors import Array, Triangles
 
-Array = NDArray[np.float64]
-Triangles = NDArray[np.uint32]
 HEAD: Final = struct.Struct("<II")  # numbers of vertices and of triangles
 MOST_TRIANGLES: Final = 2_000_000
 

@@ -8,6 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Whole = NDArray[np.int64]
+Complex = NDArray[np.complex128]
+Triangles = NDArray[np.uint32]
 
 
 def cross(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:

@@ -16,12 +16,11 @@ from nivel.extras import needed
 from nivel.files.target import write_text
 from nivel.known import Inline, Result
 from nivel.lazy import dataclass, field, nivel, provided, scipy, xarray
-from nivel.machine.core.vectors import Array
+from nivel.machine.core.vectors import Array, Complex
 from nivel.results.analyses.sampled_model import SampledModel, participation, taking_part
 from nivel.results.frames.tabulated import Column, Rows, Tabulated, chosen
 from nivel.results.trust import Trust
 
-Complex = NDArray[np.complex128]
 ROUND_OFF: Final = 1e-11  # share of an eigenvalue below which its real part is nothing, however well it is known
 FREQUENCIES: Final = 400
 LISTED: Final = 12  # modes in a text

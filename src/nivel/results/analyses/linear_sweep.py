@@ -16,14 +16,13 @@ from numpy.typing import NDArray
 from nivel.errors import Fault, ModelError
 from nivel.files.target import write_text
 from nivel.lazy import dataclass, field, provided, scipy, xarray
-from nivel.machine.core.vectors import Array
+from nivel.machine.core.vectors import Array, Complex
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.frames.tabulated import write_dataset
 from nivel.results.trust import Trust
 
-Complex = NDArray[np.complex128]
 TURN = 2.0 * np.pi
 # a vibration meets a multiple of the speed to this share
 MET = 1e-12

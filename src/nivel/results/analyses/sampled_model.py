@@ -6,12 +6,10 @@ from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.lazy import dataclass, scipy
-from nivel.machine.core.vectors import Array
+from nivel.machine.core.vectors import Array, Complex
 
-Complex = NDArray[np.complex128]
 ROUND_OFF: Final = 1e-7  # by which a pole on the unit circle may be outside
 SHOWN: Final = 3  # states that are named with a pole or a mode
 SHARE: Final = 0.1  # least participation of these

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from nivel.analysis.preparation.memory import arrays_of
 from nivel.kernels.core.block import Handle
 
 WORD = 8
@@ -54,7 +55,7 @@ class Image:
 
     def _relocate(self, handle: Handle, symbols: Mapping[int, str]) -> None:
         word = self.byte_of(int(handle.address)) // WORD
-        for array in _arrays(handle.record):
+        for array in arrays_of(handle.record):
             if array.nbytes:
                 self.inner[word + 4] = self.byte_of(array.ctypes.data)  # behind owner, parent, items, item size
             word += _words(array)
@@ -70,14 +71,6 @@ class Image:
                 self.inner[first + k] = self.byte_of(address)
 
 
-def _arrays(record: Any) -> Iterator[Any]:
-    for field in record:
-        if isinstance(field, tuple):
-            yield from _arrays(field)
-        else:
-            yield field
-
-
 def _words(array: Any) -> int:
     """Words of the descriptor of an array, see `nivel.kernels.core.block`."""
     return 5 + 2 * array.ndim
@@ -86,7 +79,7 @@ def _words(array: Any) -> int:
 def _pieces(handles: Sequence[Handle]) -> Iterator[tuple[int, int]]:
     """First and last address of every block of descriptors and every array, in the order of the records."""
     for handle in handles:
-        arrays = [*_arrays(handle.record)]
+        arrays = [*arrays_of(handle.record)]
         yield int(handle.address), int(handle.address) + WORD * sum(map(_words, arrays))
         yield from ((array.ctypes.data, array.ctypes.data + array.nbytes) for array in arrays if array.nbytes)
 

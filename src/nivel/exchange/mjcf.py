@@ -26,8 +26,8 @@ from nivel.exchange.mechanism import (
     Mechanism,
     Terms,
 )
-from nivel.exchange.mjcf_contacts import CLIP, hardness, read_contacts
-from nivel.exchange.mjcf_equalities import read_equalities
+from nivel.exchange.mjcf_contacts import CLIP, hardness, kind_of, read_contacts
+from nivel.exchange.mjcf_equalities import axes_of, read_equalities
 from nivel.exchange.mjcf_tendons import Tendons
 from nivel.exchange.urdf import digits
 from nivel.extras import needed, require
@@ -124,10 +124,8 @@ def _keyframe(model: Any, wanted: str, file: str) -> int:
 
 def _check_finite(document: Document) -> None:
     """Note attributes of numbers of which one is not finite. A word that the file gives to an element as its name is none."""
-    pending, names, given = [document.root], {""}, []
-    while pending:
-        element = pending.pop()
-        pending += element.children
+    names, given = {""}, []
+    for element in document.root.every():
         names |= {element.get("name"), element.get("class")}
         given += [(element, key, each.split()) for key, each in element.attributes.items()]
     for element, key, words in given:
@@ -240,7 +238,7 @@ class _Reader:
         place = self._frame(d.xpos[b], d.xmat[b])
         inertial = None
         if m.body_mass[b] > 0.0:
-            own = self._quaternion(m.body_iquat[b])
+            own = axes_of(self.mj, m.body_iquat[b])
             inertial = Inertial(float(m.body_mass[b]), m.body_ipos[b].copy(), own @ np.diag(m.body_inertia[b]) @ own.T)
         name = self.body(b)
         looks = [
@@ -253,11 +251,6 @@ class _Reader:
             lift = -float(m.body_gravcomp[b]) * inertial.mass * np.array(self.mechanism.gravity)
             self.mechanism.lifts.append((name, inertial.centre, lift))
             self.mechanism.notes.change("gravcomp is a force at the centre of mass", name)
-
-    def _quaternion(self, parameters: Any) -> Any:
-        out = np.zeros(9)
-        self.mj.mju_quat2Mat(out, np.asarray(parameters, dtype=float))
-        return out.reshape(3, 3)
 
     def _joints(self, b: int, base: str | None) -> None:
         m, name = self.m, self.body(b)
@@ -325,7 +318,7 @@ class _Reader:
             return None
         look = self.solid(g)
         if look is None or look.kind == "plane":
-            self.mechanism.notes.leave(f"looks: geoms of type {self._kind(g)}", name)
+            self.mechanism.notes.leave(f"looks: geoms of type {kind_of(self.mj, self.m, g)}", name)
             return None
         return look
 
@@ -336,9 +329,9 @@ class _Reader:
         colour = (
             m.mat_rgba[material] if material >= 0 and np.all(m.geom_rgba[g] == (0.5, 0.5, 0.5, 1.0)) else m.geom_rgba[g]
         )
-        place = self._frame(m.geom_pos[g], self._quaternion(m.geom_quat[g]))
+        place = self._frame(m.geom_pos[g], axes_of(self.mj, m.geom_quat[g]))
         common: dict[str, Any] = {"place": place, "colour": digits(colour)}
-        match self._kind(g):
+        match kind_of(self.mj, m, g):
             case "sphere" | "capsule" | "cylinder" | "box" | "ellipsoid" | "plane" as kind:
                 factors = {"sphere": (1.0,), "box": (2.0, 2.0, 2.0), "ellipsoid": (1.0, 1.0, 1.0), "plane": ()}
                 sizes = zip(factors.get(kind, (1.0, 2.0)), size.tolist(), strict=False)
@@ -350,14 +343,11 @@ class _Reader:
                 return Look("surface", surface=(vertices, faces.astype(np.uint32)), **common)
         return None
 
-    def _kind(self, g: int) -> str:
-        return self.mj.mjtGeom(int(self.m.geom_type[g])).name.removeprefix("mjGEOM_").lower()
-
     def _site(self, s: int) -> None:
         m = self.m
         name = m.site(s).name
         if name:
-            at = self._frame(m.site_pos[s], self._quaternion(m.site_quat[s]))
+            at = self._frame(m.site_pos[s], axes_of(self.mj, m.site_quat[s]))
             self.mechanism.sites.append((name, self.body(int(m.site_bodyid[s])), at))
 
     def _actuator(self, a: int) -> None:

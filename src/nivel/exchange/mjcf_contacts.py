@@ -47,8 +47,7 @@ def read_contacts(
                 look = look_of(g)
                 solids[g] = None if look is None else Solid(names[g], body(int(m.geom_bodyid[g])), look)
                 if look is None:
-                    kind = mj.mjtGeom(int(m.geom_type[g])).name.removeprefix("mjGEOM_").lower()
-                    mechanism.notes.leave(f"contacts of geoms of type {kind}", names[g], acts=True)
+                    mechanism.notes.leave(f"contacts of geoms of type {kind_of(mj, m, g)}", names[g], acts=True)
         one, two = solids[first], solids[second]
         planes = [each.look.kind for each in (one, two) if each is not None].count("plane")
         if one is None or two is None or planes == 2:
@@ -62,6 +61,11 @@ def read_contacts(
         mechanism.notes.leave(
             f"contacts between bodies that move ({skipped} pairs); `--contacts all` has them", acts=True
         )
+
+
+def kind_of(mj: Any, m: Any, g: int) -> str:
+    """The type of a geom in words."""
+    return mj.mjtGeom(int(m.geom_type[g])).name.removeprefix("mjGEOM_").lower()
 
 
 def _names(m: Any, body: Callable[[int], str]) -> list[str]:

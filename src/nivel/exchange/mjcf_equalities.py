@@ -48,11 +48,11 @@ def _attach(mj: Any, m: Any, e: int, kind: str, name: str, mechanism: Mechanism,
     places = [mechanism.links[each].place if each else Frame() for each in links]
     numbers = m.eq_data[e]
     if by_sites:
-        inside = [Frame(_axes(mj, m.site_quat[each]), m.site_pos[each].copy()) for each in ids]
+        inside = [Frame(axes_of(mj, m.site_quat[each]), m.site_pos[each].copy()) for each in ids]
     elif kind == "connect":
         inside = [Frame(origin=numbers[0:3].copy()), Frame(origin=numbers[3:6].copy())]
     else:  # the second body seen from the first one
-        inside = [Frame(_axes(mj, numbers[6:10]), numbers[3:6].copy()), Frame()]
+        inside = [Frame(axes_of(mj, numbers[6:10]), numbers[3:6].copy()), Frame()]
     first, second = (place @ each for place, each in zip(places, inside, strict=True))
     gap = float(np.linalg.norm(first.origin - second.origin))
     turn = float(np.abs(first.axes - second.axes).max()) if kind == "weld" else 0.0
@@ -72,7 +72,8 @@ def _attach(mj: Any, m: Any, e: int, kind: str, name: str, mechanism: Mechanism,
     mechanism.connections.append(Connection(name, "fixed", (links[0], links[1]), first.origin))
 
 
-def _axes(mj: Any, parameters: Any) -> Any:
+def axes_of(mj: Any, parameters: Any) -> Any:
+    """(3, 3) axes of a frame with these Euler parameters."""
     out = np.zeros(9)
     mj.mju_quat2Mat(out, np.asarray(parameters, dtype=float))
     return out.reshape(3, 3)

@@ -20,14 +20,14 @@ SPANS: Final = "tendons along sites are measured distances, on which motors act"
 PLANE: Final = "turning of the plane of tendons around spheres: the sphere is a wheel in that of the start"
 
 
-def terms_of(m: Any, tendon: int, joints: dict[int, Connection], factor: float = 1.0) -> Terms | None:
+def terms_of(m: Any, tendon: int, joints: dict[int, Connection]) -> Terms | None:
     """Joints and factors of a fixed tendon; None of one that goes through space, or over joints without one coordinate."""
     out = []
     for w in range(m.tendon_adr[tendon], m.tendon_adr[tendon] + m.tendon_num[tendon]):
         joint = joints.get(int(m.wrap_objid[w])) if m.wrap_type[w] == JOINT else None
         if joint is None or not joint.coordinate:
             return None
-        out.append((joint.name, factor * float(m.wrap_prm[w])))
+        out.append((joint.name, float(m.wrap_prm[w])))
     return tuple(out)
 
 

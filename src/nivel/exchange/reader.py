@@ -166,13 +166,12 @@ def _mechanism(
 
 def _macro(root: Element) -> Element | None:
     """The first element that is a macro of xacro, or uses one."""
-    pending = [root]
-    while pending:
-        element = pending.pop()
-        if element.tag.startswith("xacro:") or any(map(_XACRO.search, element.attributes.values())):
-            return element
-        pending += reversed(element.children)
-    return None
+    made = (
+        each
+        for each in root.every()
+        if each.tag.startswith("xacro:") or any(map(_XACRO.search, each.attributes.values()))
+    )
+    return next(made, None)
 
 
 STEEL: Final = 7850.0  # [kg/m³]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
@@ -34,7 +33,7 @@ def collada_surface(content: bytes) -> tuple[Array, Corners]:
     except ModelError as error:
         raise ColladaError(error.faults[0].message) from None
     named: dict[str, Element] = {}
-    for element in _every(root):
+    for element in root.every():
         element.tag = element.tag.rpartition(":")[2]  # without the prefix of its XML namespace
         if "id" in element.attributes:
             named[element.get("id")] = element
@@ -51,18 +50,9 @@ def collada_surface(content: bytes) -> tuple[Array, Corners]:
     return joined(parts)
 
 
-def _every(root: Element) -> Iterator[Element]:
-    """An element and all below it, in their order."""
-    pending = [root]
-    while pending:
-        element = pending.pop()
-        yield element
-        pending += reversed(element.children)
-
-
 def _below(root: Element, tag: str) -> list[Element]:
     """All elements of a tag below `root`, in their order."""
-    return [element for element in _every(root) if element.tag == tag]
+    return [element for element in root.every() if element.tag == tag]
 
 
 def _place(

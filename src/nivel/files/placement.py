@@ -161,15 +161,15 @@ class Scene:
         beams = {each.name: each for each in elements["beams"] if isinstance(each, Beam)}
         return cls(placing, bodies, markers, joints, beams)
 
-    def is_opposite(self, reference: str, kind: str = "length") -> bool:
-        """Whether a joint coordinate counts the other way in the mirror image. `kind`: of a joint without coordinate."""
+    def is_opposite(self, reference: str) -> bool:
+        """Whether a joint coordinate counts the other way in the mirror image."""
         joint, _, coordinate = reference.partition(".")
         if not self.placement.mirrored or joint not in self.joints:
             return False
         opposite = JOINTS[self.joints[joint].type].opposite
         if not opposite:
             return False
-        return coordinate.removesuffix("_rate") == opposite if coordinate else kind == "length"
+        return not coordinate or coordinate.removesuffix("_rate") == opposite
 
     def signal(self, path: str) -> Linear:
         """A signal of the part in terms of those of the placed part."""

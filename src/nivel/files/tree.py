@@ -179,7 +179,7 @@ class _Reader:
         if node.tag is not None:
             self.report(path, f"the tag `{node.tag.replace(_PREFIX, '!!')}` is not used in machine files")
         if isinstance(node, Scalar):
-            return self.scalar(node, path)
+            return self.scalar(node)
         if id(node) in self.open:
             self.report(path, "this alias leads back to itself")
             return None
@@ -221,7 +221,7 @@ class _Reader:
             data.append(self.read(entry, (*path, at)))
         return data
 
-    def scalar(self, node: Scalar, path: Path) -> Hashable:
+    def scalar(self, node: Scalar) -> Hashable:
         text = node.text
         if not node.plain:
             return text

@@ -39,6 +39,13 @@ class Element:
         """The children of this tag."""
         return (child for child in self.children if child.tag == tag)
 
+    def every(self) -> Iterator[Element]:
+        """The element and all that stand in it, in the order of the document."""
+        pending = [self]
+        while pending:
+            yield (element := pending.pop())
+            pending += reversed(element.children)
+
     def get(self, attribute: str, default: str = "") -> str:
         """An attribute without the spaces around it."""
         return self.attributes.get(attribute, default).strip()

@@ -24,8 +24,8 @@ from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.output.observe import observe
 from nivel.lazy import dataclass
 from nivel.live.preparation import HAND_INPUTS, LiveRun, Pace, live_plan, prepared_run
-from nivel.live.shared import arrays_of, bytes_of, live_in, put_back, taken
-from nivel.live.timing import ENTRIES, Timing, clock_addresses, shares, timing_of
+from nivel.live.shared import arrays_in, bytes_of, live_in, put_back, taken
+from nivel.live.timing import ENTRIES, Timing, give_clocks, shares, timing_of
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.signals.input import Input
@@ -208,12 +208,11 @@ class _Run:
         self.live = live = live_in(bytearray(bytes_of(its.sizes)), its.sizes)
         self.loop = its.begin(live)
         ticks = max(TICKS_AT_LEAST, int(DURATION / its.pace.tick))
-        live.address[[paced.CLOCK, paced.SLEEP]] = clock_addresses()
-        live.address[[paced.NOW, paced.DEADLINE]] = live.now.ctypes.data, live.deadline.ctypes.data
+        give_clocks(live)
         live.clock[paced.SPEED] = 1e12
         live.control[[paced.PACED, paced.TICKS, paced.FROM_TAPE]] = 1, ticks, int(moved)
         live.control[paced.HEARD] = time.clock_gettime_ns(time.CLOCK_MONOTONIC)
-        self._arrays = arrays_of([*its.records, (live.value,)])
+        self._arrays = arrays_in([*its.records, (live.value,)])
         self._start = taken(self._arrays, 0)
         if moved:
             live.tape[:ticks] = swept(its.plan.machine.inputs, ticks, its.pace.tick)

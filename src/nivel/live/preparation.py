@@ -23,7 +23,7 @@ from nivel.integrate.loop.run import TIME, Run
 from nivel.kernels.core.block import Handle
 from nivel.kernels.output.observe import observe
 from nivel.lazy import dataclass
-from nivel.live.shared import Sizes, arrays_of, put_back, taken
+from nivel.live.shared import Sizes, arrays_in, put_back, taken
 from nivel.machine.laws.time_function import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import changed
@@ -137,7 +137,7 @@ class LiveRun:
 
     def show(self, live: Live) -> None:
         """Put a frame of the present state into the ring, and leave no trace of it in the run."""
-        arrays = arrays_of(self.records)
+        arrays = arrays_in(self.records)
         before = taken(arrays, 0)
         run, motion = self.run, self.prepared.motion
         at = float(run.clock[TIME])

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.analysis.preparation.memory import arrays_of
 from nivel.integrate.loop.paced import BINS, CLOCKS, CONTROLS, Live
 
 TAPE_ROWS: Final = 1 << 16  # a minute of ticks of 1 ms: what the recorder may be late by
@@ -77,21 +78,10 @@ class Snapshot(NamedTuple):
     arrays: list[NDArray[Any]]
 
 
-def arrays_of(records: Sequence[Any]) -> list[NDArray[Any]]:
+def arrays_in(records: Sequence[Any]) -> list[NDArray[Any]]:
     """All arrays of nested records, each once."""
-    found: dict[int, NDArray[Any]] = {}
-    for record in records:
-        for array in _leaves(record):
-            found.setdefault(id(array), array)
+    found = {id(array): array for record in records for array in arrays_of(record)}
     return [each for each in found.values() if each.size]
-
-
-def _leaves(record: Any) -> Iterator[NDArray[Any]]:
-    for field in record:
-        if isinstance(field, tuple):
-            yield from _leaves(field)
-        else:
-            yield field
 
 
 def taken(arrays: Sequence[NDArray[Any]], ticks: int) -> Snapshot:

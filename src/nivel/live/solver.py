@@ -23,8 +23,8 @@ from nivel.kernels.core import status as codes
 from nivel.lazy import asdict, dataclass, field, nivel
 from nivel.live import shared
 from nivel.live.preparation import LiveRun, Pace, prepared_run
-from nivel.live.shared import Snapshot, arrays_of, live_in, put_back, taken
-from nivel.live.timing import ENTRIES, become_urgent, clock_addresses, shares
+from nivel.live.shared import Snapshot, arrays_in, live_in, put_back, taken
+from nivel.live.timing import ENTRIES, become_urgent, give_clocks, shares
 from nivel.native import library
 
 ROUND: Final = 0.5  # s that the compiled loop goes on before Python has a turn
@@ -95,9 +95,8 @@ class Solver:
     def __init__(self, live_run: LiveRun, live: paced.Live, pipe: Connection) -> None:
         self._its, self._live, self._pipe = live_run, live, pipe
         self._drive = live_run.begin(live)
-        live.address[[paced.CLOCK, paced.SLEEP]] = clock_addresses()
-        live.address[[paced.NOW, paced.DEADLINE]] = live.now.ctypes.data, live.deadline.ctypes.data
-        self._arrays = arrays_of([*live_run.records, (live.value,)])
+        give_clocks(live)
+        self._arrays = arrays_in([*live_run.records, (live.value,)])
         self._start = taken(self._arrays, 0)
         self._saved: Snapshot | None = None
         self._guards = live_run.prepared.guards_circuits

@@ -105,12 +105,12 @@ LOCK_ALL: Final = 3  # MCL_CURRENT | MCL_FUTURE
 PRIORITY: Final = 10  # of SCHED_FIFO, 1 … 99
 
 
-def clock_addresses() -> tuple[int, int]:
-    """Addresses of clock_gettime and clock_nanosleep."""
+def give_clocks(live: paced.Live) -> None:
+    """Tell the loop where clock_gettime and clock_nanosleep are, and its own times."""
     library = ctypes.CDLL(None)
     functions = (library.clock_gettime, library.clock_nanosleep)
-    first, second = (ctypes.cast(each, ctypes.c_void_p).value or 0 for each in functions)
-    return first, second
+    live.address[[paced.CLOCK, paced.SLEEP]] = [ctypes.cast(each, ctypes.c_void_p).value or 0 for each in functions]
+    live.address[[paced.NOW, paced.DEADLINE]] = live.now.ctypes.data, live.deadline.ctypes.data
 
 
 def become_urgent() -> list[str]:

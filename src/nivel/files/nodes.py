@@ -13,8 +13,6 @@ from typing import Any, Final, NamedTuple
 import yaml
 from yaml import events
 
-from nivel.lazy import dataclass, field
-
 DEEPEST: Final = 60
 MOST: Final = 200_000  # values of a file
 TOO_MANY: Final = (
@@ -40,43 +38,14 @@ class NotYamlError(Exception):
         super().__init__(message)
 
 
-@dataclass
-class Scalar:
-    """`text` as written; `plain`: without quotes."""
-
-    place: Place
-    tag: str | None
-    text: str
-    plain: bool
-
-
-@dataclass
-class Sequence:
-    """`flow`: between brackets, where a comma ends a value."""
-
-    place: Place
-    tag: str | None
-    flow: bool = False
-    entries: list[Node] = field(default_factory=list)
-
-
-@dataclass
-class Mapping:
-    """`flow`: between braces, where a comma ends a value."""
-
-    place: Place
-    tag: str | None
-    flow: bool = False
-    pairs: list[tuple[Node, Node]] = field(default_factory=list)
-
-
-Node = Scalar | Sequence | Mapping
+Node = yaml.Node
 _Loader: Any = yaml.CSafeLoader if yaml.__with_libyaml__ else yaml.SafeLoader
 
 
 @lru_cache(maxsize=8)
 def compose(text: str) -> Node | None:
-    """The root node of the one document in `text`; None if there is nothing in it. Nodes are only read: the last texts are kept.
+    """The root node of the one document in `text`; None if there is nothing in it. The `start_mark` of nodes is a Place. They are only
+    read: the last texts are kept.
 
     Raises NotYamlError.
     """
@@ -108,28 +77,24 @@ class _Composer:
         return root
 
     def node(self, event: Any, depth: int) -> Node:
-        place = _place(event)
+        place: Any = _place(event)
         if depth > DEEPEST:
             raise NotYamlError(TOO_DEEP, place)
         if isinstance(event, events.AliasEvent):
             if event.anchor not in self.anchors:
-                raise NotYamlError(
-                    f"this is not YAML: the alias `*{event.anchor}` has no anchor `&{event.anchor}` before it", place
-                )
+                message = f"this is not YAML: the alias `*{event.anchor}` has no anchor `&{event.anchor}` before it"
+                raise NotYamlError(message, place)
             return self.anchors[event.anchor]
         if isinstance(event, events.ScalarEvent):
-            return self.anchored(event, Scalar(place, event.tag, event.value, not event.style))
-        if isinstance(event, events.SequenceStartEvent):
-            sequence = Sequence(place, event.tag, bool(event.flow_style))
-            self.anchored(event, sequence)
-            while not isinstance(entry := next(self.stream), events.SequenceEndEvent):
-                sequence.entries.append(self.entry(entry, depth + 1))
-            return sequence
-        mapping = Mapping(place, event.tag, bool(event.flow_style))
-        self.anchored(event, mapping)
-        while not isinstance(key := next(self.stream), events.MappingEndEvent):
-            mapping.pairs.append((self.node(key, depth + 1), self.entry(next(self.stream), depth + 1)))
-        return mapping
+            return self.anchored(event, yaml.ScalarNode(event.tag, event.value, place, style=event.style))
+        kind = yaml.MappingNode if isinstance(event, events.MappingStartEvent) else yaml.SequenceNode
+        node = self.anchored(event, kind(event.tag, [], place, flow_style=bool(event.flow_style)))
+        while not isinstance(first := next(self.stream), events.CollectionEndEvent):
+            if kind is yaml.MappingNode:
+                node.value.append((self.node(first, depth + 1), self.entry(next(self.stream), depth + 1)))
+            else:
+                node.value.append(self.entry(first, depth + 1))
+        return node
 
     def entry(self, event: Any, depth: int) -> Node:
         """A value of a list or a mapping, of which there are not too many: a file is refused before all of it is read."""
@@ -197,7 +162,7 @@ def _place_of_character(at: int, text: str) -> Place:
     return Place(before.count("\n") + 1, len(before) - (before.rfind("\n") + 1) + 1)
 
 
-def cut_at_comma(node: Mapping | Sequence) -> str:
+def cut_at_comma(node: Any) -> str:
     """The first expression whose parentheses are closed behind a comma only, as a whole; empty where there is none."""
     open_parts: list[str] = []
     for text in _texts_between_commas(node):
@@ -209,12 +174,12 @@ def cut_at_comma(node: Mapping | Sequence) -> str:
     return ""
 
 
-def _texts_between_commas(node: Mapping | Sequence) -> list[str]:
+def _texts_between_commas(node: Any) -> list[str]:
     """What stands between the commas, without keys; a value that was cut goes on in keys that have no value."""
-    if isinstance(node, Sequence):
-        return [_plain_text(entry) for entry in node.entries]
-    return [_plain_text(key) if _plain_text(value) == "" else _plain_text(value) for key, value in node.pairs]
+    if isinstance(node, yaml.SequenceNode):
+        return [_plain_text(entry) for entry in node.value]
+    return [_plain_text(key) if _plain_text(value) == "" else _plain_text(value) for key, value in node.value]
 
 
 def _plain_text(node: Node) -> str:
-    return node.text if isinstance(node, Scalar) and node.plain else "…"
+    return node.value if isinstance(node, yaml.ScalarNode) and not node.style else "…"

@@ -11,21 +11,10 @@ import re
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from typing import Any, Final
 
+import yaml
+
 from nivel.errors import Fault, ModelError, refuse
-from nivel.files import nodes
-from nivel.files.nodes import (
-    DEEPEST,
-    MOST,
-    TOO_DEEP,
-    TOO_MANY,
-    Node,
-    NotYamlError,
-    Place,
-    Scalar,
-    Sequence,
-    compose,
-    cut_at_comma,
-)
+from nivel.files.nodes import DEEPEST, MOST, TOO_DEEP, TOO_MANY, NotYamlError, Place, compose, cut_at_comma
 from nivel.lazy import dataclass, field
 from nivel.machine.units.quantity import FAULT
 
@@ -166,11 +155,11 @@ class _Reader:
         self.count = 0
         self.tree.data = None
 
-    def value(self, node: Node, path: Path) -> None:
-        self.tree.places[path] = node.place
+    def value(self, node: Any, path: Path) -> None:
+        self.tree.places[path] = node.start_mark
         self.tree.data = self.read(node, path)
 
-    def read(self, node: Node, path: Path) -> Any:
+    def read(self, node: Any, path: Path) -> Any:
         self.count += 1
         if self.count > MOST:  # through aliases
             raise ModelError(self.tree.fault(path, TOO_MANY))
@@ -178,29 +167,29 @@ class _Reader:
             raise ModelError(self.tree.fault(path[:3], TOO_DEEP))
         if node.tag is not None:
             self.report(path, f"the tag `{node.tag.replace(_PREFIX, '!!')}` is not used in machine files")
-        if isinstance(node, Scalar):
+        if isinstance(node, yaml.ScalarNode):
             return self.scalar(node)
         if id(node) in self.open:
             self.report(path, "this alias leads back to itself")
             return None
-        if node.flow and (whole := cut_at_comma(node)):
+        if node.flow_style and (whole := cut_at_comma(node)):
             self.tree.report(path, f'inside [ ] and {{ }} a comma ends a value; put it in quotes: `"{whole}"`')
-            return {} if isinstance(node, nodes.Mapping) else []
+            return {} if isinstance(node, yaml.MappingNode) else []
         self.open.add(id(node))
-        data = self.mapping(node, path) if isinstance(node, nodes.Mapping) else self.sequence(node, path)
+        data = self.mapping(node, path) if isinstance(node, yaml.MappingNode) else self.sequence(node, path)
         self.open.discard(id(node))
         return data
 
-    def mapping(self, node: nodes.Mapping, path: Path) -> dict[str, Any]:
+    def mapping(self, node: Any, path: Path) -> dict[str, Any]:
         data: dict[str, Any] = {}
-        for key_node, value_node in node.pairs:
-            place = key_node.place
-            if not isinstance(key_node, Scalar):
+        for key_node, value_node in node.value:
+            place: Place = key_node.start_mark
+            if not isinstance(key_node, yaml.ScalarNode):
                 self.tree.faults.append(
                     Fault(self.tree.file, *place, ".".join(map(str, path)), "a key must be a single word")
                 )
                 continue
-            key = key_node.text
+            key = key_node.value
             if key in data:
                 first = self.tree.keys[(*path, key)].line
                 words = ".".join(map(str, (*path, key)))
@@ -208,22 +197,21 @@ class _Reader:
                 self.tree.faults.append(Fault(self.tree.file, *place, words, message))
                 continue
             self.tree.keys[(*path, key)] = place
-            self.tree.places[(*path, key)] = (
-                value_node.place if value_node.place.line == key_node.place.line else key_node.place
-            )
+            at = value_node.start_mark
+            self.tree.places[(*path, key)] = at if at.line == place.line else place
             data[key] = self.read(value_node, (*path, key))
         return data
 
-    def sequence(self, node: Sequence, path: Path) -> list[Any]:
+    def sequence(self, node: Any, path: Path) -> list[Any]:
         data = []
-        for at, entry in enumerate(node.entries):
-            self.tree.places[(*path, at)] = entry.place
+        for at, entry in enumerate(node.value):
+            self.tree.places[(*path, at)] = entry.start_mark
             data.append(self.read(entry, (*path, at)))
         return data
 
-    def scalar(self, node: Scalar) -> Hashable:
-        text = node.text
-        if not node.plain:
+    def scalar(self, node: Any) -> Hashable:
+        text = node.value
+        if node.style:
             return text
         if NULL.fullmatch(text):
             return None

@@ -56,31 +56,18 @@ def schema() -> dict[str, Any]:
     one = [{"type": "string"}, included]
     machine["properties"] = {
         "format": {"const": FORMAT, "description": "version of the file format"},
-        "parameters": {
-            "type": ["object", "null"],
-            "additionalProperties": _QUANTITY,
-            "description": "named numbers for use in every quantity; they may use each other",
-        },
-        "functions": {
-            "type": ["object", "null"],
-            "additionalProperties": {"anyOf": [*_QUANTITY["anyOf"], CURVE]},
-            "description": "named functions: `bump(x): …` an expression of its arguments, or a curve through points",
-        },
+        "parameters": _by_name(_QUANTITY, "named numbers for use in every quantity; they may use each other"),
+        "functions": _by_name(
+            {"anyOf": [*_QUANTITY["anyOf"], CURVE]},
+            "named functions: `bump(x): …` an expression of its arguments, or a curve through points",
+        ),
         "include": {
             "anyOf": [*one, {"type": "array", "items": {"anyOf": one}}],
             "description": "files whose sections stand in this one",
         },
-        "assemblies": {
-            "type": ["object", "null"],
-            "additionalProperties": assembly,
-            "description": "parts that stand in files of their own",
-        },
+        "assemblies": _by_name(assembly, "parts that stand in files of their own"),
         **{
-            section: {
-                "type": ["object", "null"],
-                "additionalProperties": {"type": "object", "properties": words, "additionalProperties": False},
-                "description": f"keys that several forces share, by the key `{SETS[section]}`",
-            }
+            section: _by_name(_closed(words), f"keys that several forces share, by the key `{SETS[section]}`")
             for section, words in shared.items()
         },
         **properties,
@@ -97,9 +84,16 @@ def _forms(key: str, definitions: dict[str, Any]) -> list[dict[str, Any]]:
     words = {word: each for word, each in record.items() if word not in FILLED} | dict.fromkeys(
         MORE.get(key, ()), _QUANTITY
     )
-    own = [*plain, *([{"type": "object", "properties": words, "additionalProperties": False}] if words else [])]
-    each = {coordinate: {"anyOf": own} for coordinate in COORDINATE_KINDS}
-    return [*own, {"type": "object", "properties": each, "additionalProperties": False}]
+    own = [*plain, *([_closed(words)] if words else [])]
+    return [*own, _closed({coordinate: {"anyOf": own} for coordinate in COORDINATE_KINDS})]
+
+
+def _by_name(each: dict[str, Any], text: str) -> dict[str, Any]:
+    return {"type": ["object", "null"], "additionalProperties": each, "description": text}
+
+
+def _closed(properties: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "object", "properties": properties, "additionalProperties": False}
 
 
 def _definition(record: type[Record], definitions: dict[str, Any]) -> dict[str, str]:

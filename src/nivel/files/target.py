@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 import stat
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
+from weakref import finalize
 
 from nivel.errors import ModelError
 from nivel.native.store import whole
@@ -112,6 +113,38 @@ def write_text(text: str, path: str | os.PathLike[str] | None, what: str, *, for
         check_target(Path(path), what, force=force)
         write_file(path, what, text)
     return text
+
+
+class Growing:
+    """A file at whose end pieces are written, each whole or not at all, by one process at a time; `end` : of the last [bytes].
+
+    Raises OSError where it cannot be written, BlockingIOError where another process writes it.
+    """
+
+    def __init__(self, path: Path) -> None:
+        # not truncated by the opening: another process may write it
+        self.stream: IO[bytes] = os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT, 0o666), "r+b", buffering=0)
+        self.end = 0
+        finalize(self, self.stream.close)
+
+    def claim(self) -> None:
+        """Keep other processes away."""
+        with suppress(ImportError):  # Windows
+            import fcntl
+
+            fcntl.flock(self.stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+    def add(self, content: bytes) -> None:
+        """One more piece. Where that fails, as on a full disk, the file is as it was before."""
+        done = 0
+        try:
+            self.stream.seek(self.end)
+            while done < len(content):
+                done += self.stream.write(content[done:])
+        except OSError:
+            self.stream.truncate(self.end)
+            raise
+        self.end += done
 
 
 AHEAD = 1024 * 1024  # bytes taken beyond what is needed now, so that small blocks do not take space each time

@@ -7,17 +7,16 @@ numbers. A block that is whole can be read, however the program ended: the journ
 from __future__ import annotations
 
 import json
-import os
 import struct
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import IO, Any, Final, NamedTuple
-from weakref import finalize
 
 import numpy as np
 
 from nivel.errors import ModelError
+from nivel.files.target import Growing
 from nivel.machine.core.vectors import Array
 
 ENDING: Final = ".part"
@@ -58,23 +57,13 @@ class Journal:
     """Blocks written one after the other. Raises ModelError where the file cannot be created, or another run writes it."""
 
     def __init__(self, path: Path, about: dict[str, Any], *, force: bool = False) -> None:
-        import fcntl  # of systems on which there is live operation
-
         self.path = path
         check_journal(path, force=force)
         try:
-            # not truncated by the opening: another run may write it
-            descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
-            self._file = os.fdopen(descriptor, "r+b", buffering=0)
-            finalize(self, self._file.close)
-            try:
-                fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                self._file.truncate(0)
-                self._end = 0
-                self._write(FIRST_LINE + json.dumps(about).encode() + b"\n")
-            except BaseException:
-                self._file.close()
-                raise
+            self._growing = Growing(path)
+            self._growing.claim()
+            self.file.truncate(0)
+            self._growing.add(FIRST_LINE + json.dumps(about).encode() + b"\n")
         except BlockingIOError:
             raise ModelError(f"another run is recording into {path}; give this one another name (--record)") from None
         except OSError as error:
@@ -85,27 +74,16 @@ class Journal:
         """One more block. Raises OSError, as on a full disk; the journal is then as it was before."""
         payload = np.ascontiguousarray(rows, "<f8").tobytes()
         numbers = kind, *rows.shape, zlib.crc32(payload)
-        self._write(HEAD.pack(*numbers, zlib.crc32(HEAD.pack(*numbers, 0))) + payload)
-
-    def _write(self, content: bytes) -> None:
-        done = 0
-        try:
-            self._file.seek(self._end)
-            while done < len(content):
-                done += self._file.write(content[done:])
-        except OSError:
-            self._file.truncate(self._end)
-            raise
-        self._end += done
+        self._growing.add(HEAD.pack(*numbers, zlib.crc32(HEAD.pack(*numbers, 0))) + payload)
 
     @property
     def file(self) -> IO[bytes]:
         """The open file; where it is at does not matter to the journal."""
-        return self._file
+        return self._growing.stream
 
     def close(self) -> None:
         """Write no more; the file stays."""
-        self._file.close()
+        self.file.close()
 
     def discard(self) -> None:
         """Remove the file."""

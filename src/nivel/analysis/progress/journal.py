@@ -14,14 +14,14 @@ from hashlib import sha256
 from pathlib import Path
 from threading import Lock
 from time import monotonic
-from typing import IO, Any, Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel import __version__
 from nivel.errors import ModelError, SolveError
-from nivel.files.target import check_target, reason_of
+from nivel.files.target import Growing, check_target, reason_of
 from nivel.model import Model
 
 FORMAT: Final = 1
@@ -91,22 +91,22 @@ class Journal:
         self.rows, self.complete, self.facts = dict[int, Row](), False, dict[str, Any]()
         self._lock, self._synchronised = Lock(), monotonic()
         try:
-            self._stream: IO[bytes] = os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT, 0o666), "r+b", buffering=0)
+            self._growing = Growing(path)
         except OSError as error:
             raise ModelError(f"the journal {path} cannot be written: {reason_of(error)}") from None
         try:
             self._open(of, anew)
         except BaseException:
-            self._stream.close()
+            self._growing.stream.close()
             raise
 
     def _open(self, of: str, anew: bool) -> None:
         """Begin, or read what is there. Raises ModelError."""
-        self._end, path, first = 0, self.path, {"format": FORMAT, "nivel": __version__, "study": of}
+        path, first, stream = self.path, {"format": FORMAT, "nivel": __version__, "study": of}, self._growing.stream
         try:
-            _claim(self._stream)
-            if anew or b"\n" not in self._stream.read(READ):  # killed before its first line was written
-                self._stream.truncate(0)
+            self._growing.claim()
+            if anew or b"\n" not in stream.read(READ):  # killed before its first line was written
+                stream.truncate(0)
                 self._write(first)
                 return
         except BlockingIOError:
@@ -114,13 +114,13 @@ class Journal:
         except OSError as error:
             path.unlink(missing_ok=True)
             raise ModelError(f"the journal {path} cannot be written: {reason_of(error)}") from None
-        head, rows, self._end = _read(path)
+        head, rows, self._growing.end = _read(path)
         if head != first:
             other = (
                 "another version of nivel" if head["study"] == of else "another study, or the machine was changed since"
             )
             raise ModelError(f"{path} is the journal of {other}; begin anew with --force")
-        self._stream.truncate(self._end)
+        stream.truncate(self._growing.end)
         for row in rows.values():
             self.facts.update(row.pop("facts", {}))
         self.rows.update(rows)
@@ -137,33 +137,16 @@ class Journal:
                 raise SolveError(message, time=0.0, advice=NO_ROOM) from None
 
     def _write(self, content: Row) -> None:
-        line, done = json.dumps(content).encode() + b"\n", 0
-        self._stream.seek(self._end)
-        try:
-            while done < len(line):
-                done += self._stream.write(line[done:])
-        except OSError:
-            self._stream.truncate(self._end)
-            raise
-        self._end += done
+        self._growing.add(json.dumps(content).encode() + b"\n")
         if monotonic() - self._synchronised > SYNCHRONISED:
-            os.fsync(self._stream.fileno())
+            os.fsync(self._growing.stream.fileno())
             self._synchronised = monotonic()
 
     def close(self) -> None:
         """End it; it is removed where it is complete, or has no rows."""
         if self.complete or not self.rows:
             self.path.unlink(missing_ok=True)
-        self._stream.close()
-
-
-def _claim(stream: IO[bytes]) -> None:
-    """Keep other processes away. Raises BlockingIOError where one was first."""
-    try:
-        import fcntl
-    except ImportError:  # Windows
-        return
-    fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        self._growing.stream.close()
 
 
 def count_finished(path: Path) -> int:

@@ -42,4 +42,5 @@ from nivel.elements.forces.springs import JointSpringDamper as JointSpringDamper
 from nivel.elements.forces.springs import SpringDamper as SpringDamper
 from nivel.elements.forces.springs import ThreeAxisSpring as ThreeAxisSpring
 from nivel.elements.forces.springs import TorsionalSpringDamper as TorsionalSpringDamper
+from nivel.elements.forces.synchronous_motors import SynchronousMotor as SynchronousMotor
 from nivel.elements.forces.tyre import Tyre as Tyre

@@ -6,7 +6,7 @@ Energy: electrical power u i goes in; R i², friction and the damping of the gea
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -21,7 +21,7 @@ from nivel.kernels.algebra.analytic import absolute, real, tanh
 from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import NUMBER, evaluate_function, table_value
-from nivel.kernels.record.hook import family
+from nivel.kernels.record.hook import Family, family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Checked, Problem, superfluous
@@ -299,7 +299,7 @@ def add_dc_motor(builder: SystemBuilder, force: DcMotor) -> None:
         scale = force.current_limit or (force.voltage_limit or 1.0) / force.resistance
         state = builder.own_state(StateFact(f"{force.name}.winding", "A", f"current of {force.name}", 0.0, scale))
     lags = {"state": state, "curve": NONE, "lag": force.inductance, "limit": limit, "voltage_limit": voltage}
-    _add(builder, force, force.voltage, kind=WINDING, constant=force.torque_constant, **lags)
+    add_row(builder, force, force.voltage, drive, kind=WINDING, constant=force.torque_constant, **lags)
 
 
 def add_servo_motor(builder: SystemBuilder, force: ServoMotor) -> None:
@@ -308,29 +308,38 @@ def add_servo_motor(builder: SystemBuilder, force: ServoMotor) -> None:
     if force.torque_speed is not None:
         limit = max(force.torque_speed.torques)
         table = Table(force.torque_speed.speeds, force.torque_speed.torques, of="shaft.speed")
-        curve = builder.functions.add(table, _number)
+        curve = builder.functions.add(table, no_argument)
     if force.time_constant:
         scale = limit if math.isfinite(limit) else 1.0
         state = builder.own_state(StateFact(f"{force.name}.loop", "N m", f"torque of {force.name}", 0.0, scale))
     constant = 1.0 if force.torque_constant is None else force.torque_constant
     lags = {"state": state, "curve": curve, "lag": force.time_constant, "limit": limit, "voltage_limit": math.inf}
-    _add(builder, force, force.effort, kind=CURRENT_LOOP, constant=constant, **lags)
+    add_row(builder, force, force.effort, drive, kind=CURRENT_LOOP, constant=constant, **lags)
 
 
-def _number(_: str) -> tuple[int, int, int]:
+def no_argument(_: str) -> tuple[int, int, int]:
     """The argument of a table that is looked up by hand."""
     return NUMBER, 0, 0
 
 
-def _add(builder: SystemBuilder, force: Drive, command: TimeFunction, **own: Any) -> None:
-    """The row of a drive; own : what its kind says."""
+def add_row(
+    builder: SystemBuilder,
+    force: Drive,
+    command: TimeFunction,
+    kernel: Family,
+    more: tuple[Sequence[int], Sequence[float]] = ((), ()),
+    **own: Any,
+) -> None:
+    """The row of a drive for its kernel; own : what its kind says; more : columns and numbers that only this kernel reads."""
     coordinate = builder.coordinate(force.coordinate)
     angle = is_angle(builder, coordinate)
     first = add_outputs(builder, force, angle)
     twist, speed = _rotor(builder, force, angle) if force.gear_stiffness else (NONE, NONE)
     ends = {"output": first, "coordinate": coordinate, "command": builder.function(command)}
     row = DriveRow.of(force, **ends, twist=twist, speed=speed, play=0.5 * force.backlash, **own)
-    builder.add(drive, row, *((2, (0, 1)) if force.backlash else (0, ())))
+    row.columns.extend(more[0])
+    row.numbers.extend(more[1])
+    builder.add(kernel, row, *((2, (0, 1)) if force.backlash else (0, ())))
 
 
 def _rotor(builder: SystemBuilder, force: Drive, angle: bool) -> tuple[int, int]:

@@ -115,6 +115,8 @@ KINDS: Final[dict[str, tuple[str, str, Dimension]]] = {
     "current": ("a current", "A", dimension(A=1)),
     "resistance": ("a resistance", "ohm", dimension(kg=1, m=2, s=-3, A=-2)),
     "inductance": ("an inductance", "H", dimension(kg=1, m=2, s=-2, A=-2)),
+    "charge": ("an electric charge", "A*s", dimension(A=1, s=1)),
+    "capacitance": ("a capacitance", "A*s/V", dimension(kg=-1, m=-2, s=4, A=2)),
     "torque per current": ("a torque per current", "N*m/A", dimension(kg=1, m=2, s=-2, A=-1)),
     "turning per length": ("a turning per length", "rad/m", dimension(rad=1, m=-1)),
     "stiffness per time": ("a stiffness per time", "N/(m*s)", dimension(kg=1, s=-3)),

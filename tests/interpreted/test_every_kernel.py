@@ -366,6 +366,14 @@ def test_control_and_drives(integrator):
             },
             "plain": {"type": "dc-motor", "voltage": 3, "voltage_limit": 2, **motor},
             "servo": {"type": "servo-motor", "effort": "-50*drive.value", "torque_speed": curve, **motor},
+            "field": {
+                "type": "synchronous-motor",
+                "effort": "-50*drive.value",
+                "current_limit": 5,
+                "inductance": 1e-2,
+                **motor,
+                "battery": {"charges": [0, 1], "voltages": [9, 12], "capacity": 100, "resistance": 0.1},
+            },
         },
     }
     # radau begins with a hundred steps of less than a microsecond; the held value of fixed steps comes three steps later

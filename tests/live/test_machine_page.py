@@ -208,6 +208,29 @@ def test_a_page_runs_in_a_browser_and_is_operated(browser, pendulum):
         assert table[0].startswith("time [s],bob.position.x [m]")
 
 
+@with_browser
+@pytest.mark.compiles
+def test_a_machine_that_drives_away_stays_in_the_picture(browser, tmp_path):
+    """At 10 m/s, away from a joint on the ground: the camera goes with it, and the floor."""
+    text = (
+        PENDULUM.replace("revolute", "translational")
+        .replace("axis: [0, 0, 1]", "axis: [1, 0, 0]")
+        .replace(", units: N m", ", units: N")
+    )
+    (tmp_path / "cart.yaml").write_text(
+        text.replace("mass: 2 kg", "shape: {type: box, size: [1, 1, 1]}, velocity: [10, 0, 0], mass: 2 kg")
+    )
+    written = nivel.export_page(nivel.load(tmp_path / "cart.yaml"), tmp_path / "cart.html")
+    with watched(browser) as whole:
+        page = whole.page
+        page.goto(written.path.as_uri())
+        until(page, "window.nivel?.app.live?.status?.time > 2.0 && nivel.app.follower.name === 'bob'")
+        at = "nivel.app.actor.bodies[0].position.clone().project(nivel.app.world.camera).toArray()"
+        assert page.evaluate("nivel.app.actor.bodies[0].position.x") > 15.0
+        assert all(abs(each) < 0.5 for each in page.evaluate(at)[:2])
+        assert page.evaluate("nivel.app.world.floor.group.position.x") > 10.0
+
+
 def test_functions_of_the_library_are_those_of_c(tmp_path):
     """Within two units in the last place of Python's, which are this system's."""
     (tmp_path / "libm.wasm").write_bytes(wasm.linked(wasm.library()))

@@ -107,7 +107,7 @@ export class App {
     this.labels = new Labels(this.actor, names);
     this.labels.shown.body = stage.bodies.length <= FEW_NAMES && content.mode !== "live";
     this.follower = new Follower(this.world, this.actor);
-    this.handled = new Handled(this.world, this.actor);
+    this.handled = new Handled(this.world, this.actor, (body) => this.follower.toggle(body));
     if (stage.surroundings.length) this.world.scene.add(surroundings(stage, arrays));
     this.world.scene.add(this.actor.root, this.arrows.root, this.traces.root, this.violations.root);
     this.compass = new Compass(this.world);

@@ -32,11 +32,15 @@ export function cloudOf(actor: Actor, motion: Motion): THREE.Vector3[] {
 
 /** Corners of the boxes around all bodies as they are drawn now; and what stands on the ground. */
 export function cloudNow(actor: Actor): THREE.Vector3[] {
-  const out = localBoxes(actor).flatMap((box, body) => {
+  return [...boxesNow(actor).flat(), ...standing(actor)];
+}
+
+/** Corners of the box around each body as it is drawn now; none of a body that is not drawn. */
+export function boxesNow(actor: Actor): THREE.Vector3[][] {
+  return localBoxes(actor).map((box, body) => {
     const { position, quaternion } = actor.bodies[body]!;
     return box.isEmpty() || actor.isBad[body] ? [] : corners(box).map((corner) => corner.applyQuaternion(quaternion).add(position));
   });
-  return [...out, ...standing(actor)];
 }
 
 function standing(actor: Actor): THREE.Vector3[] {

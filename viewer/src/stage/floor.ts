@@ -5,6 +5,7 @@ import type { Look } from "./look";
 
 const LINES = 24; // to each side of the middle
 const PIECES = 12; // of a half line: the fading is that smooth
+const HEAVY = 5; // each so many a line is heavy
 
 export class Floor {
   readonly group = new THREE.Group();
@@ -12,6 +13,7 @@ export class Floor {
   private readonly lines: THREE.LineSegments;
   private readonly material = new THREE.LineBasicMaterial({ vertexColors: true, transparent: true, depthWrite: false });
   private readonly shadow: THREE.Mesh;
+  private readonly height: number; // along the axes of the floor
   private readonly shade = new THREE.ShadowMaterial({ opacity: 0.16, depthWrite: false });
 
   constructor(stage: Stage, look: Look) {
@@ -27,10 +29,9 @@ export class Floor {
     const base = middle.clone().addScaledVector(up, height - middle.dot(up));
     const turn = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), up);
     const flat = (v: THREE.Vector3) => v.applyQuaternion(turn.clone().invert());
-    const at = flat(base.clone());
-    const snapped = new THREE.Vector3(Math.round(at.x / this.square) * this.square, Math.round(at.y / this.square) * this.square, at.z);
+    this.height = flat(base.clone()).z;
     this.group.quaternion.copy(turn);
-    this.group.position.copy(snapped.applyQuaternion(turn));
+    this.under(base, this.square);
     this.lines = new THREE.LineSegments(gridLines(this.square), this.material);
     this.lines.renderOrder = -1;
     this.shadow = new THREE.Mesh(new THREE.PlaneGeometry(3 * reach, 3 * reach), this.shade);
@@ -38,6 +39,13 @@ export class Floor {
     this.shadow.renderOrder = -2;
     this.group.add(this.lines, this.shadow);
     this.recolour(look);
+  }
+
+  /** Below a point, moved by whole squares of the size `step`. */
+  under(point: THREE.Vector3, step = HEAVY * this.square): void {
+    const at = point.clone().applyQuaternion(this.group.quaternion.clone().invert());
+    const snapped = new THREE.Vector3(Math.round(at.x / step) * step, Math.round(at.y / step) * step, this.height);
+    this.group.position.copy(snapped.applyQuaternion(this.group.quaternion));
   }
 
   setGrid(on: boolean): void {
@@ -68,7 +76,7 @@ function gridLines(square: number): THREE.BufferGeometry {
   const strength = (x: number, y: number, heavy: boolean) => Math.max(0, 1 - Math.hypot(x, y) / reach) ** 1.4 * (heavy ? 1 : 0.5);
   for (let k = -LINES; k <= LINES; k++) {
     const across = k * square;
-    const heavy = k % 5 === 0;
+    const heavy = k % HEAVY === 0;
     for (let piece = -PIECES; piece < PIECES; piece++) {
       for (const along of [piece * step, (piece + 1) * step]) {
         points.push(across, along, 0);

@@ -185,6 +185,11 @@ export class World {
     this.controls.target.add(by);
     this.flight?.shift(by);
     this.controls.update();
+    if (!this.around) return;
+    // what is moved by hand or drives has left what was seen at first
+    for (const point of this.cloud) point.add(by);
+    this.floor.under(this.controls.target);
+    this.light();
   }
 
   private tick(now: number): void {
@@ -283,7 +288,7 @@ export class World {
     const from = this.up.clone().multiplyScalar(1.5).addScaledVector(towards, 0.5).addScaledVector(right, -0.55).normalize();
     this.sun.position.copy(middle).addScaledVector(from, 3 * reach);
     this.sun.target.position.copy(middle);
-    this.sun.castShadow = true;
+    this.sun.castShadow = this.shadows && this.level < 1;
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.radius = 3;
     this.sun.shadow.normalBias = 0.004 * this.stage.size;

@@ -69,6 +69,8 @@ def estimate_errors(result: Readable, finer: Readable, factor: float) -> Estimat
     ends = np.unique(np.linspace(0, len(first) - 1, count).round().astype(int))
     values, mean = {}, {}
     for name in result.variables:
+        if name not in finer.variables:
+            continue
         a, b = result.array(name)[first], finer.array(name)[second]
         if name == "orientation":
             b = np.where(np.sum(a * b, axis=-1, keepdims=True) < 0.0, -b, b)

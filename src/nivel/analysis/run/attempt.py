@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time as clock_of_python
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cached_property
 from math import ceil, gcd, inf, lcm
 
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.curves.corners import corners
-from nivel.analysis.plan.plan import Plan, methods_of
+from nivel.analysis.plan.plan import Plan, methods_of, with_stiff
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared
@@ -181,6 +181,26 @@ def most_work(first: float, states: int) -> float:
     return max(MOST_TIMES * first, LEAST_WORK / max(states, FEW_STATES))
 
 
+def _of(plan: Plan, machine: MachineRecord) -> Plan:
+    """The same run of another machine."""
+    methods = methods_of(machine, plan.methods.formulation, plan.methods.coordinates)
+    other = replace(plan, machine=machine, methods=methods)
+    return other if plan.methods.stiff is None else with_stiff(other)
+
+
+def resampled(plan: Plan) -> Iterator[Plan]:
+    """The plan with samples of the waves in lines at other times, closer or, where these are too many, farther apart: what a wave loses
+    between two samples is an error too. None where no line is a delay."""
+    machine = plan.machine
+    if any(each.type == "line" and each.model == "delay" for each in machine.hydraulics):
+        for share in (1.0 / FINER, FINER):
+            lines = [
+                each.replace(sample_time=share * each.sample_time) if each.type == "line" else each
+                for each in machine.hydraulics
+            ]
+            yield _of(plan, machine.replace(hydraulics=tuple(lines)))
+
+
 class SecondRun:
     """A second run of a plan in a thread; it waits for the first one to begin.
 
@@ -197,13 +217,16 @@ class SecondRun:
         words: str = "",
         prepared: Prepared | None = None,
     ) -> None:
+        self._plans = [*resampled(plan)] if beside is None else []
         if beside is None:
             self.refinement = coarsened(plan) or refine(plan.settings, _steps_to_meet(plan))
+            if self._plans:
+                self.refinement = replace(self.refinement, words=f"{self.refinement.words} and other samples of waves")
         else:
             self.refinement = Refinement(plan.settings, words, 0.0)
         self.leader = Leader() if beside is None else beside.leader
         self._follows = beside is None
-        self._plan, self._limit, self._prepared = plan, limit, prepared
+        self._plan, self._limit, self._prepared = plan, limit, None if self._plans else prepared
         self._sink = Memory()
         self._finished: RunOutcome | None = None
         self._fault: Exception | None = None
@@ -228,11 +251,19 @@ class SecondRun:
 
     def _march(self) -> RunOutcome:
         settings = self.refinement.settings
-        prepared = self._prepared = self._prepared or prepare(self._plan.methods)
+        prepared = self._prepared = self._prepared or self._prepare()
         self._sink.begin(Header(prepared.motion.system.layout, {}))
         chosen = settings.steps == 0 and self._follows
         self._follower = Follower(self.leader if chosen else None, settings.duration, self._stopped.is_set)
         return march(prepared, settings, [self._sink], progress=self._reach, pacing=self._follower)
+
+    def _prepare(self) -> Prepared:
+        for plan in self._plans:
+            try:
+                return prepare(plan.methods)
+            except ModelError:  # more samples than are kept
+                continue
+        return prepare(self._plan.methods)
 
     def _reach(self, time: float) -> None:
         self._reached = time
@@ -342,9 +373,7 @@ class ElementsRun:
         pair = nivel.judge.after.other_elements.other_elements(plan.machine)
         if pair is None:
             return None
-        methods = methods_of(pair.machine, plan.methods.formulation, plan.methods.coordinates)
-        other = replace(plan, machine=pair.machine, methods=methods)
-        return cls(pair, SecondRun(other, limit, second, f"{pair.words} elements of beams"))
+        return cls(pair, SecondRun(_of(plan, pair.machine), limit, second, f"{pair.words} elements of beams"))
 
     def wait(self, listener: Listener) -> Found:
         """What it found."""

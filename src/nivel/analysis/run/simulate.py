@@ -21,7 +21,7 @@ from nivel.analysis.plan.plan import Plan, other_run
 from nivel.analysis.preparation.attributes import run_attributes, settings_in_json
 from nivel.analysis.progress.log import Listener, Progress
 from nivel.analysis.progress.pacing import terminable
-from nivel.analysis.run.attempt import TENTH, Attempt, Options, SecondRun, attempt, header_of, most_work
+from nivel.analysis.run.attempt import TENTH, Attempt, Options, SecondRun, attempt, header_of, most_work, resampled
 from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.prepared_state import prepare
 from nivel.errors import ModelError, SolveError
@@ -131,7 +131,7 @@ def _finer(first: Attempt, plan: Plan, options: Options) -> Attempt | None:
     second = first.verified
     if second is None or second.ended or first.found is not None or second.finished.pace is None:
         return None
-    third = SecondRun(plan, options.limit)
+    third = SecondRun(next(resampled(plan), plan), options.limit)
     try:
         third.leader.taken, third.leader.work = second.finished.pace[TAKEN].copy(), second.finished.work
         verified = third.wait(options.listener)

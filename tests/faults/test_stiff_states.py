@@ -32,3 +32,30 @@ def test_a_vibration_that_a_stiff_state_would_follow_is_missed(tmp_path):
     result = run(tmp_path, text, integrator="hht", duration=0.2)
     assert [item.row for item in result.trust.items if item.name == "loads"] == ["a.rate"]
     assert result.trust.verdict == "red"
+
+
+BUMP = """
+format: 1
+gravity: [0, 0, -9.81]
+bodies:
+  hub: {mass: 380, inertia: [20, 20, 20], position: [0, 0, 0.29], velocity: [10, 0, 0]}
+  wheel: {mass: 20, inertia: [0.6, 1, 0.6], position: [0, 0, 0.29], velocity: [10, 0, 0], angular_velocity: [0, 33, 0]}
+markers:
+  axle: {body: wheel, axis: [0, 1, 0]}
+  road: {body: ground, axis: [0, 0, 1], x_axis: [1, 0, 0]}
+joints:
+  level: {type: planar, bodies: [ground, hub], point: [0, 0, 0.29], axis: [0, 1, 0]}
+  upright: {type: revolute, bodies: [hub, wheel], point: [0, 0, 0.29], axis: [0, 1, 0]}
+forces:
+  front: {type: tyre, wheel: axle, plane: road, radius: 315 mm, width: 195 mm, nominal_load: 4 kN,
+    heights: {size: [60 m, 2 m], points: [601, 3], function: "0.01*exp(-(x - 3)^2)"}}
+simulation: {duration: 0.6, integrator: radau, tolerance: 1e-8}
+"""
+
+
+def test_stretches_of_a_tyre_that_are_round_off_turn_no_light(tmp_path):
+    """Straight on over a bump nothing stretches it across or about the normal."""
+    result = run(tmp_path, BUMP)
+    assert 0.0 <= np.abs(result.array("state.front.across")).max() < 1e-12
+    assert not [item.text for item in result.trust.items if item.name == "states"]
+    assert result.trust.verdict == "green", result.trust.items

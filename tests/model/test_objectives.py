@@ -221,3 +221,23 @@ def test_mounts_of_the_example_sag_as_far_as_they_may():
 def test_what_does_not_go_with_an_analysis_is_refused(block, given, message):
     with pytest.raises(ModelError, match=message):
         block.optimise("mode.1.frequency", {STIFFNESS: (100, 200)}, **given)
+
+
+def test_a_mode_that_does_not_vibrate_has_no_frequency(tmp_path):
+    """A pendulum upside down grows with √(m g l/(J + m l²)), which is no frequency; hanging it vibrates by that."""
+    path = tmp_path / "pendulum.yaml"
+    path.write_text("""
+format: 1
+gravity: [0, -9.81, 0]
+parameters: {angle: 0}
+bodies: {bob: {mass: 1, inertia: [0.01, 0.01, 0.01], position: [0, -1, 0]}}
+joints: {hinge: {type: revolute, bodies: [ground, bob], point: [0, 0, 0], axis: [0, 0, 1], start: {angle: angle}}}
+""")
+    found = nivel.load(path).sweep(
+        {"parameters.angle": [0, pi]},
+        outputs={"f": "mode.1.frequency", "growth": "largest_real_part"},
+        analysis="linearise",
+    )
+    rate = sqrt(9.81 / 1.01)
+    assert found.f.values == pytest.approx([rate / (2 * pi), np.nan], nan_ok=True)
+    assert found.growth.values[1] == pytest.approx(rate)

@@ -152,6 +152,34 @@ def test_the_shock_response_spectrum_of_half_a_sine_is_that_of_its_closed_form()
     assert found == pytest.approx(wanted, rel=2e-3)  # straight lines between samples: (ω step)²/8
 
 
+@pytest.mark.parametrize(("interval", "is_told"), [("0.5 ms", False), ("2 ms", True), ("5 ms", True), ("20 ms", True)])
+def test_a_shock_between_frames_is_a_doubt_of_its_spectrum(interval, is_told):
+    """1 - cos Ωt for one period, undamped: y'' + ω² y = ω² a (1 - cos Ωt). Frames of 20 ms meet nothing of it."""
+    length, height = 0.02, 30.0
+    pulse = "30 N * (1 - cos(314.1592653589793*time)) * (time < 0.02)"
+    result = shaken(pulse, 0.1, interval)
+    frequencies = np.array([5.0, 20.0, 90.0])
+    found = result.shock_response_spectrum("sensor.felt", frequencies, damping=0.0)
+    wanted, fast = [], 2.0 * np.pi / length
+    for omega in 2.0 * np.pi * frequencies:
+        t = np.linspace(0.0, length, 200_001)
+        part = omega**2 / (omega**2 - fast**2)
+        y = height * (1.0 - part * np.cos(fast * t) - (1.0 - part) * np.cos(omega * t))
+        rate = height * (1.0 - part) * omega * np.sin(omega * length)
+        wanted.append(max(np.abs(y).max(), np.hypot(y[-1], rate / omega)))
+    off = np.abs(found.to_numpy() - wanted)
+    assert (off < found.doubt.to_numpy() + 2e-3 * np.array(wanted)).all()
+    assert ("between frames, which may be off" in found.attrs["headline"]) == is_told
+
+
+def test_a_vibration_between_frames_is_no_amplitude_of_a_slower_one_without_a_word():
+    """Frames of 10 ms see 93 Hz as 7 Hz."""
+    fast, slow = (shaken(f"3 N * sin(6.283185307179586*{f}*time)", 2.0, "10 ms") for f in (93, 2))
+    told, quiet = (each.waterfall("sensor.felt", resolution=2.0).attrs["headline"] for each in (fast, slow))
+    assert "may vibrate faster" in told
+    assert "may vibrate faster" not in quiet
+
+
 def test_a_waterfall_has_the_amplitude_of_a_steady_vibration():
     result = shaken("3 N * sin(6.283185307179586 * 40 * time / (1 s))", 2.0)
     found = result.waterfall("sensor.felt", resolution=2.0)

@@ -202,7 +202,7 @@ def _scalar(found: Found, name: str) -> Number:
             return Number(np.nan, OF_MODE[last])
         mode = moving[int(first) - 1]
         numbers = {
-            "frequency": mode.natural_frequency,
+            "frequency": mode.natural_frequency if mode.eigenvalue.imag else np.nan,
             "damping_ratio": mode.damping_ratio,
             "real": mode.eigenvalue.real,
             "imaginary": mode.eigenvalue.imag,

@@ -24,7 +24,7 @@ from nivel.machine.core.vectors import Array
 from nivel.machine.study.any_quantity import another_measure
 from nivel.machine.units.quantity import ANY, read_quantity
 from nivel.machine.units.tree import ExpressionError
-from nivel.results.curve import Curve, curve_of
+from nivel.results.curve import TOLD, Curve, curve_of
 from nivel.words.wording import shown, unknown_word
 
 Spectra = Mapping[str, Any] | str | PathLike[str]
@@ -247,9 +247,10 @@ def shock_response_spectrum(
     """Largest absolute accelerations of oscillators on a base with this history: `Result.shock_response_spectrum`.
 
     Each passes the history, straight between samples, through its exact response (ramp-invariant filter, Smallwood 1981), and one period
-    more, in which it vibrates freely.
+    more, in which it vibrates freely. `doubt` of each is what the curve between frames leaves open, passed through the magnitude of the
+    response to an impulse.
     """
-    of, out = _one(result, name), []
+    of, out, doubts = _one(result, name), [], []
     for f in np.asarray(frequencies, dtype=float):
         omega = 2.0 * np.pi * f
         frame = float(np.min(of.step[of.step > 0.0]))
@@ -263,8 +264,20 @@ def shock_response_spectrum(
         start = scipy.signal.lfilter_zi(numerator.ravel(), denominator) * base[0]
         response = np.abs(scipy.signal.lfilter(numerator.ravel(), denominator, base, zi=start)[0])
         out.append(_top(response))
-    coords = {"frequency": ("frequency", np.asarray(frequencies, dtype=float), {"units": "Hz"})}
-    facts = {"units": result.units(name), "long_name": f"shock response spectrum of {name}", "damping_ratio": damping}
+        open_ones = of.doubt_at(of.time[0] + step * (np.arange(len(base)) + 0.5))[:, 0]
+        impulse = np.abs(scipy.signal.lfilter(numerator.ravel(), denominator, np.eye(1, len(base))[0]))
+        doubts.append(float(np.max(scipy.signal.fftconvolve(impulse, open_ones))))
+    share = np.divide(doubts, np.maximum(out, 1e-300))
+    k, units = int(np.argmax(share)), result.units(name)
+    said = (
+        f"the response at {frequencies[k]:g} Hz to {name} between frames, which may be off by {doubts[k]:.2g} {units}"
+    )
+    values: dict[str, Any] = {"frequency": np.asarray(frequencies, dtype=float), "doubt": np.array(doubts)}
+    coords = {
+        each: ("frequency", values[each], {"units": of_it}) for each, of_it in (("frequency", "Hz"), ("doubt", units))
+    }
+    facts = {"units": units, "long_name": f"shock response spectrum of {name}", "damping_ratio": damping}
+    facts |= result.trust.of_derived(*[said] * int(share[k] > TOLD)).attributes()
     return xarray.DataArray(np.array(out), coords=coords, dims=("frequency",), attrs=facts)
 
 
@@ -278,12 +291,19 @@ def _top(values: Array) -> float:
     return b - (a - c) ** 2 / (8.0 * bend) if bend < 0.0 else b
 
 
+def _facts(result: Result, name: str, of: Curve, words: str) -> dict[str, Any]:
+    """Attributes of amplitudes of a history, which are not verified where its frames leave more than vibrations of theirs open."""
+    is_open = of.is_told(np.max(of.doubt, axis=0, initial=0.0))[0]
+    lacks = [f"{name} between frames, where it may vibrate faster"] * int(is_open)
+    return {"units": result.units(name), "long_name": words, **result.trust.of_derived(*lacks).attributes()}
+
+
 def waterfall(result: Result, name: str, resolution: float) -> xarray.DataArray:
     """Amplitudes over time and frequency: `Result.waterfall`."""
     of = _one(result, name)
     step = float(np.median(of.step[of.step > 0.0]))
     place, f, values = _short_time(_uniform(of, step), step, 1.0 / resolution)
-    facts = {"units": result.units(name), "long_name": f"amplitude of {name}"}
+    facts = _facts(result, name, of, f"amplitude of {name}")
     time = {"time": ("time", of.time[0] + place, {"units": "s"})}
     coords: dict[str, Any] = {**time, "frequency": ("frequency", f, {"units": "Hz"})}
     return xarray.DataArray(values, coords=coords, dims=("time", "frequency"), attrs=facts)
@@ -301,7 +321,7 @@ def orders(result: Result, name: str, angle: str, resolution: float, most: float
     time = _times_of(turn, revolutions, places)
     place, order, values = _short_time(of.at(time)[:, 0], step, 1.0 / resolution)
     speed = np.interp(np.interp(place, places, time), turn.time, turn.rate[:, 0])
-    facts = {"units": result.units(name), "long_name": f"amplitude of {name} by orders of {angle}"}
+    facts = _facts(result, name, of, f"amplitude of {name} by orders of {angle}")
     coords: dict[str, Any] = {"revolution": place, "order": order, "speed": ("revolution", speed, {"units": "rad/s"})}
     return xarray.DataArray(values, coords=coords, dims=("revolution", "order"), attrs=facts)[:, order <= most]
 

@@ -250,14 +250,14 @@ class SmallState:
 
 
 def look_at_states(run: Run) -> list[SmallState]:
-    """The small states; scales of components of circuits are those of their components."""
+    """The small states of `states` and `control`; those of forces and circuits have the scales of their elements."""
     small = min(SMALL, (run.plan.settings.tolerance or 1.0) / FOLLOWED)
-    out, components = [], {component.name for component in run.machine.hydraulics}
+    out, given = [], {state.name for state in run.machine.states}
     for fact in run.prepared.motion.system.states:
-        if fact.integral or fact.name.partition(".")[0] in components:
+        if fact.sampled or not (fact.name in given or fact.name.startswith("control.")):
             continue
         largest = peak(run.result, fact.result).value
-        if not fact.sampled and 0.0 < largest < small * fact.scale:
+        if 0.0 < largest < small * fact.scale:
             out.append(SmallState(fact.name, largest, fact.scale))
     return out
 

@@ -9,10 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import nivel
 from browsing import until, watched, with_browser
 from needing import needs
+from nivel.cli import main
 from nivel.integrate.loop.paced import SHOWN, TICKS
 from nivel.live.preparation import HAND_INPUTS, live_plan, prepared_run
 from nivel.live.shared import Sizes, bytes_of, live_in
@@ -206,6 +208,21 @@ def test_a_page_runs_in_a_browser_and_is_operated(browser, pendulum):
         assert saved.value.suggested_filename == "pendulum.csv"
         assert len(table) > 10
         assert table[0].startswith("time [s],bob.position.x [m]")
+
+
+@with_browser
+@pytest.mark.compiles
+def test_a_report_carries_the_machine_and_runs_it_again(browser, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "pendulum.yaml").write_text(PENDULUM)
+    told = CliRunner().invoke(main, ["run", "pendulum.yaml", "--operate", "--no-verify", "--quiet"])
+    assert told.exit_code == 0, told.output
+    with watched(browser) as whole:
+        page = whole.page
+        page.goto((tmp_path / "pendulum.html").as_uri())
+        page.get_by_role("button", name="Run it again here").click()
+        page.wait_for_selector("iframe[name=operate]")
+        until(page.frame("operate"), "window.nivel?.app.live?.status?.time > 0.3")
 
 
 @with_browser

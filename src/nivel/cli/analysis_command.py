@@ -60,11 +60,12 @@ class Order:
         compute: Callable[..., Any],
         say: Callable[[Any, Path, Path | None], None],
         more: Callable[[Any], Any] = lambda result: result,
+        reported: tuple[str, ...] = (),
     ) -> None:
         """Compute a result into its file, write the report, and say what it is. Of a failure everything computed is kept and told first.
 
         name : of the result file. compute : takes the settings, `out`, `force` and `listener`. more : what is reported and said in place
-        of the result.
+        of the result. reported : more that its report takes.
         """
         target, report = self.files(name)
         failure: SolveError | None = None
@@ -78,7 +79,7 @@ class Order:
             if report is not None and result is not None:
                 listener.say("writing the report")
                 try:
-                    result.report(report)
+                    result.report(report, *reported)
                 except ModelError as error:
                     if failure is None:
                         raise

@@ -7,14 +7,15 @@ import math
 from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import click
 
 from nivel.cli.analysis_command import Order, analysis_command
 from nivel.cli.options import input_option
-from nivel.cli.progress import computed_in, console, ended, say_trust_and_files
-from nivel.known import Result
+from nivel.cli.progress import computed_in, console, ended, progress_listener, say_trust_and_files
+from nivel.known import Machine, Result
 from nivel.lazy import nivel
 from nivel.settings import RunSettingsDict
 from nivel.words.wording import set_in_motion
@@ -26,12 +27,13 @@ ROUND_OFF = 1e-14  # m, rad or per second: smaller changes of the start are not 
 @analysis_command(RunSettingsDict, "NAME.nc")
 @input_option
 @click.option("--no-verify", is_flag=True, help="Make no second run, so the error is not estimated.")
+@click.option("--operate", is_flag=True, help="Put the machine into the report, to be operated there; 0.5 MB or more.")
 @click.option(
     "--verify-limit",
     metavar="TIME",
     help="How long the second run may continue after the first, e.g. '1 min'; default: the duration of the first, and at least 10 s.",
 )
-def command(order: Order, inputs: dict[str, str], no_verify: bool, verify_limit: str | None) -> None:
+def command(order: Order, inputs: dict[str, str], no_verify: bool, operate: bool, verify_limit: str | None) -> None:
     """Simulate MACHINE and write its result (NetCDF) and report (HTML).
 
     A second run with other step sizes runs at the same time and estimates the error of every number in the result.
@@ -44,7 +46,16 @@ def command(order: Order, inputs: dict[str, str], no_verify: bool, verify_limit:
         order.files(order.out)
     machine = order.load()
     simulate = partial(machine.simulate, inputs=inputs, verify=not no_verify, verify_limit=verify_limit)
-    order.run(f"{machine.name}.nc", simulate, partial(_say, notes=machine.name_notes))
+    reported = (_operated(machine, order.quiet),) if operate and not order.no_report else ()
+    order.run(f"{machine.name}.nc", simulate, partial(_say, notes=machine.name_notes), reported=reported)
+
+
+def _operated(machine: Machine, quiet: bool) -> str:
+    """The page in which the machine is run again. Raises ModelError where a page cannot carry it."""
+    with TemporaryDirectory() as folder, progress_listener(quiet) as listener:
+        return nivel.live.opening.export_page(machine, Path(folder) / "page.html", listener=listener).path.read_text(
+            encoding="utf-8"
+        )
 
 
 def _say(result: Result, target: Path, report: Path | None, notes: Sequence[str]) -> None:

@@ -96,16 +96,19 @@ LARGEST_MOTION = 900_000  # characters
 ALL_POINTS = 600_000  # of all curves together: keeps the file below about 4 MB
 
 
-def write_report(result: Result, path: str | os.PathLike[str]) -> Path:
-    """Write the report of `result` to `path`; an existing file is replaced. The file needs no network and nothing beside it."""
+def write_report(result: Result, path: str | os.PathLike[str], operated: str = "") -> Path:
+    """Write the report of `result` to `path`; an existing file is replaced. The file needs no network and nothing beside it.
+
+    operated : page of the machine (`nivel.export_page`) as text, in which it is run again.
+    """
     target = Path(path)
     keep_sources(target, "report", [result.path] if result.path else [])
-    return write_file(target, "report", report_html(result))
+    return write_file(target, "report", report_html(result, operated))
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # a run beyond all bounds is drawn with gaps
-def report_html(result: Result) -> str:
-    """The report as text."""
+def report_html(result: Result, operated: str = "") -> str:
+    """The report as text. operated : as of `write_report`."""
     record = _record(result)
     shown = panels(result)
     balance_of = nivel.results.frames.circuit_balance.component_balances if record.get("hydraulics") else None
@@ -139,6 +142,7 @@ def report_html(result: Result) -> str:
         buckling=json.loads(str(result.attributes.get("buckling", "[]"))),
         motion=motion,
         motion_left_out=motion_left_out,
+        operated=operated,
         shapes=beam_shapes(result),
         peaks=peak_reactions(result),
         tornados=tornados(result),

@@ -293,9 +293,12 @@ class Result(Tabulated):
         return Result(nivel.results.analyses.mode_motion.mode_motion(self, number, frame))
 
     @checked_arguments
-    def report(self, path: str | os.PathLike[str]) -> Path:
-        """Write the report as one HTML file that needs no network; an existing file is replaced."""
-        return provided("report")(self, path)
+    def report(self, path: str | os.PathLike[str], operated: str = "") -> Path:
+        """Write the report as one HTML file that needs no network; an existing file is replaced.
+
+        operated : text of a page by `nivel.export_page`, in which the machine is run again.
+        """
+        return provided("report")(self, path, operated)
 
     @checked_arguments
     def animate(self, *others: Result, height: int = 520) -> Inline:

@@ -7,55 +7,15 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.errors import Fault
-from nivel.exchange.mechanism import WORLD, Array, Connection, Frame, Inertial, Link, Mechanism
-from nivel.exchange.translation import Names, triple, turn
-from nivel.lazy import dataclass, field
+from nivel.exchange.mechanism import WORLD, Array, Connection, Frame, Group, Inertial, Link, Mechanism
+from nivel.exchange.translation import triple, turn
 from nivel.machine.bodies.inertia import impossible, point_mass_inertia
 from nivel.machine.core.orientation import Orientation, rotation_matrix
-from nivel.machine.core.record import GROUND
 
 FLOOR: Final = 1e-11  # of the largest principal moment: the least one that a moment by round-off is raised to
 # of the largest moment: by so much a moment may be negative or too large by the round-off of its file
 ROUND_OFF: Final = 1e-6
 MASSLESS: Final = 1e-15  # of the mass that a link without mass carries: the mass that it gets
-
-
-@dataclass
-class Group:
-    """Links that move as one. first : the one whose frame is that of the body, WORLD for the ground. links : all of them."""
-
-    first: str
-    links: list[str] = field(default_factory=list)
-
-
-def groups_of(mechanism: Mechanism) -> dict[str, Group]:
-    """The group of every link and of WORLD, by name of the link; the first link is the one nearest to the root."""
-    parent: dict[str, str] = {name: name for name in (WORLD, *mechanism.links)}
-
-    def root(name: str) -> str:
-        while parent[name] != name:
-            parent[name] = parent[parent[name]]
-            name = parent[name]
-        return name
-
-    for each in mechanism.connections:
-        if each.kind != "fixed":
-            continue
-        first, second = map(root, each.bodies)
-        if second == WORLD:
-            first, second = second, first
-        if first != second:
-            parent[second] = first
-    out: dict[str, Group] = {}
-    groups: dict[str, Group] = {}
-    for name in parent:
-        top = root(name)
-        group = groups.setdefault(top, Group(top))
-        if name != WORLD:
-            group.links.append(name)
-        out[name] = group
-    return out
 
 
 def lumped(mechanism: Mechanism, group: Group) -> Inertial | None:
@@ -78,6 +38,12 @@ def lumped(mechanism: Mechanism, group: Group) -> Inertial | None:
     return parts[0] if len(parts) == 1 else together(parts)
 
 
+def between(mechanism: Mechanism, links: Iterable[str]) -> float:
+    """[kg] the mass against which a force between two links works; what stands on the ground has none."""
+    moving = [lumped(mechanism, group) for link in links if (group := mechanism.groups[link]).first != WORLD]
+    return 1.0 / max(sum(1.0 / each.mass for each in moving if each is not None), 1e-12)
+
+
 @np.errstate(over="ignore", invalid="ignore")  # what is not finite is a fault of the link
 def together(parts: Iterable[Inertial]) -> Inertial | None:
     """Several in one frame as one; None where there is no mass."""
@@ -92,11 +58,11 @@ def together(parts: Iterable[Inertial]) -> Inertial | None:
     return Inertial(mass, centre, inertia)
 
 
-def possible(inertial: Inertial, link: Link, mechanism: Mechanism, faults: list[Fault], file: str) -> Inertial:
+def possible(inertial: Inertial, link: Link, mechanism: Mechanism) -> Inertial:
     """The same with an inertia that a body can have: what is impossible by round-off is raised, other tensors are faults."""
     if not np.isfinite(inertial.inertia).all():
         message = "inertia of the link: it is not finite; a mass, a moment or a place is too large"
-        faults.append(Fault(file, link.line, 1, f'<link name="{link.name}">', message))
+        mechanism.fault(link.line, f'<link name="{link.name}">', message)
         return Inertial(1.0, np.zeros(3), np.eye(3))
     if not impossible(inertial.inertia):
         return inertial
@@ -109,7 +75,7 @@ def possible(inertial: Inertial, link: Link, mechanism: Mechanism, faults: list[
         return Inertial(inertial.mass, inertial.centre, least * np.eye(3))
     raised = np.maximum(moments, FLOOR * scale) if moments[0] >= -ROUND_OFF * scale else moments
     if why := impossible(axes @ np.diag(raised) @ axes.T):
-        faults.append(Fault(file, link.line, 1, f'<link name="{link.name}">', f"inertia of the link: {why}"))
+        mechanism.fault(link.line, f'<link name="{link.name}">', f"inertia of the link: {why}")
         return Inertial(inertial.mass, inertial.centre, np.eye(3))
     message = (
         "a principal moment of inertia was zero or negative by round-off: it is raised to 1e-11 of the largest one"
@@ -118,21 +84,21 @@ def possible(inertial: Inertial, link: Link, mechanism: Mechanism, faults: list[
     return Inertial(inertial.mass, inertial.centre, axes @ np.diag(raised) @ axes.T)
 
 
-def carried(mechanism: Mechanism, groups: dict[str, Group], connection: Connection) -> list[str]:
+def carried(mechanism: Mechanism, connection: Connection) -> list[str]:
     """Links beyond a connection, seen from its first body: those that move with its coordinate."""
     found: list[str] = []
-    seen = {groups[connection.bodies[0]].first, WORLD}
-    pending = [groups[connection.bodies[1]]]
+    seen = {mechanism.groups[connection.bodies[0]].first, WORLD}
+    pending = [mechanism.groups[connection.bodies[1]]]
     outgoing: dict[str, list[Connection]] = {}
     for each in mechanism.connections:
-        outgoing.setdefault(groups[each.bodies[0]].first, []).append(each)
+        outgoing.setdefault(mechanism.groups[each.bodies[0]].first, []).append(each)
     while pending:
         group = pending.pop()
         if group.first in seen:
             continue
         seen.add(group.first)
         found += group.links
-        pending += [groups[each.bodies[1]] for each in outgoing.get(group.first, ())]
+        pending += [mechanism.groups[each.bodies[1]] for each in outgoing.get(group.first, ())]
     return found
 
 
@@ -153,32 +119,30 @@ def inertia_about(mechanism: Mechanism, links: Iterable[str], point: Array, axis
     return total
 
 
-def marker_frame(mechanism: Mechanism, group: Group, name: str) -> Frame:
+def marker_frame(mechanism: Mechanism, name: str) -> Frame:
     """The frame of a link in that of its body."""
-    place = mechanism.links[name].place
-    return place if group.first == WORLD else mechanism.links[group.first].place.inverse @ place
+    place, first = mechanism.links[name].place, mechanism.groups[name].first
+    return place if first == WORLD else mechanism.links[first].place.inverse @ place
 
 
-def marker_on(link: str, inside: Frame, mechanism: Mechanism, groups: dict[str, Group], names: Names) -> dict[str, Any]:
+def marker_on(link: str, inside: Frame, mechanism: Mechanism) -> dict[str, Any]:
     """The marker of a machine file whose frame `inside` is given in a link."""
-    group = groups[link]
-    frame = inside if link == WORLD else marker_frame(mechanism, group, link) @ inside
-    body = GROUND if group.first == WORLD else names.name("body", group.first)
+    frame = inside if link == WORLD else marker_frame(mechanism, link) @ inside
     place = {"position": triple(frame.origin)} if np.any(frame.origin) else {}
-    return {"body": body, **place, **turn(frame.axes)}
+    return {"body": mechanism.body(link), **place, **turn(frame.axes)}
 
 
-def offset(mechanism: Mechanism, groups: dict[str, Group]) -> None:
+def offset(mechanism: Mechanism) -> None:
     """Move what joints carry that follow another one with an offset: to where both agree while the other one is at zero."""
     for each in mechanism.connections:
         other = next((joint for joint in mechanism.connections if each.mimic and joint.name == each.mimic[0]), None)
         if each.mimic is None or other is None or each.kind not in ("revolute", "translational"):
             continue
         wanted = each.mimic[1] * other.placed + each.mimic[2]
-        move_to(mechanism, groups, each, wanted)
+        move_to(mechanism, each, wanted)
 
 
-def move_to(mechanism: Mechanism, groups: dict[str, Group], each: Connection, wanted: float) -> None:
+def move_to(mechanism: Mechanism, each: Connection, wanted: float) -> None:
     """Place what a revolute or translational joint carries where its coordinate is `wanted`."""
     way = wanted - each.placed
     if not way:
@@ -187,7 +151,7 @@ def move_to(mechanism: Mechanism, groups: dict[str, Group], each: Connection, wa
     turned = elementary_turn(axis, way) if each.kind == "revolute" else np.eye(3)
     shift = each.point - turned @ each.point if each.kind == "revolute" else way * axis
     motion = Frame(turned, shift)
-    beyond = set(carried(mechanism, groups, each))
+    beyond = set(carried(mechanism, each))
     for name in beyond:
         mechanism.links[name].place = motion @ mechanism.links[name].place
     for other in mechanism.connections:

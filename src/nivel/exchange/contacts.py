@@ -10,10 +10,10 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.exchange.bodies import Group, marker_on
+from nivel.exchange.bodies import marker_on
 from nivel.exchange.looks import Drawing, NotFoundError
 from nivel.exchange.mechanism import WORLD, Array, Frame, Look, Mechanism, Solid, Surface, Touch
-from nivel.exchange.translation import Names, number
+from nivel.exchange.translation import number
 from nivel.lazy import scipy
 
 ROUND: Final = ("sphere", "capsule", "ellipsoid")
@@ -30,24 +30,22 @@ SOFT: Final = (
 )
 
 
-def contacts_of(
-    mechanism: Mechanism, groups: dict[str, Group], names: Names, drawing: Drawing
-) -> tuple[dict[str, Any], dict[str, Any]]:
+def contacts_of(mechanism: Mechanism, drawing: Drawing) -> tuple[dict[str, Any], dict[str, Any]]:
     """Markers with the shapes that touch, and forces."""
     markers: dict[str, Any] = {}
     forces: dict[str, Any] = {}
     areas: dict[str, float] = {}
     for touch in mechanism.touches:
         pair = [mechanism.solids[touch.first], mechanism.solids[touch.second]]
-        if groups[pair[0].link].first == groups[pair[1].link].first:  # as where a weld holds both
+        if mechanism.groups[pair[0].link].first == mechanism.groups[pair[1].link].first:  # as where a weld holds both
             continue
         for solid in pair:
             if solid.name not in areas:
-                areas[solid.name] = _add_marker(solid, markers, mechanism, groups, names, drawing)
+                areas[solid.name] = _add_marker(solid, markers, mechanism, drawing)
         if not all(areas[solid.name] for solid in pair):
             continue
-        force = _force(touch, pair, [names.name("marker", solid.name) for solid in pair], areas)
-        forces[names.new(f"{touch.first}_{touch.second}", "force")] = force
+        force = _force(touch, pair, [mechanism.names.name("marker", solid.name) for solid in pair], areas)
+        forces[mechanism.names.new(f"{touch.first}_{touch.second}", "force")] = force
     if forces and mechanism.format == "MJCF":
         mechanism.notes.change(SOFT)
     return markers, forces
@@ -68,10 +66,10 @@ def add_solid(
     mechanism.solids[name] = Solid(name, link, look, surface, model)
 
 
-def meet(mechanism: Mechanism, groups: dict[str, Group], drawing: Drawing) -> None:
+def meet(mechanism: Mechanism, drawing: Drawing) -> None:
     """Find what touches where the file names no pairs, and raise free models out of planes, to half of what a foot sinks there."""
     if mechanism.solids and not mechanism.touches:
-        _pair(mechanism, groups, drawing)
+        _pair(mechanism, drawing)
     lifts: dict[frozenset[str], Array] = {}
     parts, weight = _components(mechanism), _gravity(mechanism)
     held = {name for each in mechanism.connections if WORLD in each.bodies for name in each.bodies}
@@ -97,15 +95,15 @@ def meet(mechanism: Mechanism, groups: dict[str, Group], drawing: Drawing) -> No
         mechanism.notes.change("a model that begins inside a plane is raised out of it", f"by {height:.3g} mm")
 
 
-def _pair(mechanism: Mechanism, groups: dict[str, Group], drawing: Drawing) -> None:
+def _pair(mechanism: Mechanism, drawing: Drawing) -> None:
     """Add the pairs of solids that may touch, and the ground."""
-    moving = [each for each in mechanism.solids.values() if groups[each.link].first != WORLD]
+    moving = [each for each in mechanism.solids.values() if mechanism.groups[each.link].first != WORLD]
     if mechanism.stands and moving:
         lowest = min(_lowest(each, np.array([0.0, 0.0, 1.0]), mechanism, drawing) for each in moving)
         place = Frame(origin=np.array([0.0, 0.0, lowest]))
         mechanism.solids["ground_plane"] = Solid("ground_plane", WORLD, Look("plane", place))
         mechanism.notes.change(f"{BELOW}: at z = {lowest:.4g} m")
-    ends_of = [[groups[name].first for name in each.bodies] for each in mechanism.connections]
+    ends_of = [[mechanism.groups[name].first for name in each.bodies] for each in mechanism.connections]
     joined = {frozenset(each) for each in ends_of}
     between_axes = (name for name, each in mechanism.links.items() if each.inertial is None)
     for name in between_axes:
@@ -115,7 +113,7 @@ def _pair(mechanism: Mechanism, groups: dict[str, Group], drawing: Drawing) -> N
     solids = list(mechanism.solids.values())
     for k, first in enumerate(solids):
         for second in solids[k + 1 :]:
-            ends = {groups[first.link].first, groups[second.link].first}
+            ends = {mechanism.groups[first.link].first, mechanism.groups[second.link].first}
             same = first.apart_from != "" and first.apart_from == second.apart_from
             if len(ends) == 1 or same or {first.look.kind, second.look.kind} == {"plane"}:
                 continue
@@ -205,14 +203,7 @@ def _force(touch: Touch, pair: list[Solid], markers: list[str], areas: dict[str,
     return out | {"foundation_modulus": float(f"{FEET * touch.stiffness / area:.6g}"), **common}
 
 
-def _add_marker(
-    solid: Solid,
-    markers: dict[str, Any],
-    mechanism: Mechanism,
-    groups: dict[str, Group],
-    names: Names,
-    drawing: Drawing,
-) -> float:
+def _add_marker(solid: Solid, markers: dict[str, Any], mechanism: Mechanism, drawing: Drawing) -> float:
     """Add the marker of a solid; returns the area [m²] of its middle side, 0 where it cannot touch."""
     look = solid.look
     try:
@@ -221,7 +212,7 @@ def _add_marker(
         why = str(problem) if isinstance(problem, NotFoundError) else "a flat mesh"
         mechanism.notes.leave(f"contacts: {why}", solid.name, look.line, acts=True)
         return 0.0
-    markers[names.name("marker", solid.name)] = marker_on(solid.link, look.place, mechanism, groups, names) | shape
+    markers[mechanism.names.name("marker", solid.name)] = marker_on(solid.link, look.place, mechanism) | shape
     return area
 
 

@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterable
 from typing import Any, Final
 
-from nivel.exchange.bodies import Group, lumped
+from nivel.exchange.bodies import between
 from nivel.exchange.mechanism import WORLD, Actuator, Array, Connection, Mechanism, Rope, Span, Tendon, Terms
-from nivel.exchange.translation import Names, number, triple
+from nivel.exchange.translation import number, triple
 from nivel.machine.core.record import GROUND
 
 STOP_FREQUENCY: Final = 10.0  # [Hz] of what a joint moves against its stop
@@ -25,9 +25,9 @@ ENDS: Final = f"limits of tendons are springs, with which what they move vibrate
 EFFORT: Final = "limits of effort: give them as `limit` of a motor or servo"
 
 
-def coordinate_of(each: Connection | Span, names: Names) -> str:
+def coordinate_of(each: Connection | Span, mechanism: Mechanism) -> str:
     """The joint coordinate of a connection in the machine file."""
-    return f"{names.name('joint', each.name)}.{each.coordinate}"
+    return f"{mechanism.names.name('joint', each.name)}.{each.coordinate}"
 
 
 def parts_of(each: Connection, effective: float, mechanism: Mechanism) -> dict[str, Any]:
@@ -52,13 +52,13 @@ def parts_of(each: Connection, effective: float, mechanism: Mechanism) -> dict[s
     return out
 
 
-def spring_of(each: Connection, names: Names) -> dict[str, dict[str, Any]]:
+def spring_of(each: Connection, mechanism: Mechanism) -> dict[str, dict[str, Any]]:
     """A spring or damper at the coordinate by the end of its name, or nothing."""
     if not each.coordinate or not (each.stiffness or each.damping):
         return {}
     spring = {"stiffness": each.stiffness, "damping": each.damping, "free_value": each.free}
     given = {key: number(value) for key, value in spring.items() if value}
-    force = {"type": "joint-spring-damper", "coordinate": coordinate_of(each, names), **given}
+    force = {"type": "joint-spring-damper", "coordinate": coordinate_of(each, mechanism), **given}
     return {"spring" if each.stiffness else "damper": force}
 
 
@@ -67,10 +67,10 @@ def _ends(each: Connection) -> dict[str, float]:
     return {key: value for key, value in given if value is not None and abs(value) < LARGEST}
 
 
-def coupling_of(each: Connection, mechanism: Mechanism, names: Names) -> dict[str, Any] | None:
+def coupling_of(each: Connection, mechanism: Mechanism) -> dict[str, Any] | None:
     """The coupling of a joint that follows another one: coordinate - factor · other is held, or coordinate - function of the other."""
     if each.follows is not None:
-        return _function_coupling(each, mechanism, names)
+        return _function_coupling(each, mechanism)
     if each.mimic is None:
         return None
     other = next((joint for joint in mechanism.connections if joint.name == each.mimic[0]), None)
@@ -81,25 +81,25 @@ def coupling_of(each: Connection, mechanism: Mechanism, names: Names) -> dict[st
         return None
     return {
         "type": "linear",
-        "coordinates": [coordinate_of(each, names), coordinate_of(other, names)],
+        "coordinates": [coordinate_of(each, mechanism), coordinate_of(other, mechanism)],
         "factors": [1.0, -number(each.mimic[1])],
     }
 
 
-def _function_coupling(each: Connection, mechanism: Mechanism, names: Names) -> dict[str, Any] | None:
+def _function_coupling(each: Connection, mechanism: Mechanism) -> dict[str, Any] | None:
     """q = reference + a₀ + a₁ d + …, with the way d of the other joint, by Horner's rule."""
     assert each.follows is not None
     other = next(joint for joint in mechanism.connections if joint.name == each.follows[0])
     if not other.coordinate or not each.coordinate:
         mechanism.notes.leave("joints that follow a joint without a coordinate", each.name, each.line, acts=True)
         return None
-    own, other_own = coordinate_of(other, names), number(other.reference)
+    own, other_own = coordinate_of(other, mechanism), number(other.reference)
     way = f"({own} - {other_own!r})" if other_own else own
     first, *rest = each.follows[1]
     text = repr(number(rest[-1]))
     for factor in (*reversed(rest[:-1]), each.reference + first):
         text = f"{number(factor)!r} + {way}*({text})"
-    return {"type": "function", "coordinate": coordinate_of(each, names), "value": text}
+    return {"type": "function", "coordinate": coordinate_of(each, mechanism), "value": text}
 
 
 def _following(each: Connection, other: Connection, coordinate: float) -> float:
@@ -131,19 +131,19 @@ def start_values(mechanism: Mechanism) -> dict[str, float]:
     return starts
 
 
-def add_starts(mechanism: Mechanism, starts: dict[str, float], names: Names, joints: dict[str, Any]) -> None:
+def add_starts(mechanism: Mechanism, starts: dict[str, float], joints: dict[str, Any]) -> None:
     """Put start values into the data of joints, unless links stand there already."""
     if all(starts[each.name] == each.placed for each in mechanism.connections if each.name in starts):
         return
     for each in mechanism.connections:  # all of them: the assembly would move those that are left open
         if each.name in starts:
-            joints[names.name("joint", each.name)]["start"] = {each.coordinate: number(starts[each.name])}
+            joints[mechanism.names.name("joint", each.name)]["start"] = {each.coordinate: number(starts[each.name])}
 
 
-def _length(terms: Terms, mechanism: Mechanism, names: Names, suffix: str = "") -> str:
+def _length(terms: Terms, mechanism: Mechanism, suffix: str = "") -> str:
     """The length of joints as an expression, or its rate by the suffix `_rate`."""
     joints = mechanism.measured
-    parts = [(factor, coordinate_of(joints[name], names) + suffix) for name, factor in terms]
+    parts = [(factor, coordinate_of(joints[name], mechanism) + suffix) for name, factor in terms]
     text = " + ".join(each if factor == 1.0 else f"{number(factor)!r}*{each}" for factor, each in parts)
     return (text if len(parts) == 1 else f"({text})").replace("+ -", "- ")
 
@@ -162,7 +162,7 @@ def _sum(factors: Iterable[float], symbols: Iterable[str]) -> str:
     return " + ".join(terms).replace("+ -", "- ") or "0"
 
 
-def actuated(actuator: Actuator, control: str, mechanism: Mechanism, names: Names) -> dict[str, dict[str, Any]]:
+def actuated(actuator: Actuator, control: str, mechanism: Mechanism) -> dict[str, dict[str, Any]]:
     """Elements of an actuator by the section and the wanted name: its input, named `control`, its activation, and a motor on each joint."""
     given: dict[str, Any] = (
         {"range": [number(each) for each in actuator.control]} if actuator.control is not None else {}
@@ -173,7 +173,7 @@ def actuated(actuator: Actuator, control: str, mechanism: Mechanism, names: Name
     out: dict[str, dict[str, Any]] = {"inputs": {control: given}, "states": {}, "forces": {}}
     signal = _within(f"{control}.value", actuator.control)
     if actuator.time is not None:
-        state = names.new(f"{actuator.name}_activation", "state")
+        state = mechanism.names.new(f"{actuator.name}_activation", "state")
         rate = f"({signal} - {state}.value)/{number(actuator.time)!r}" if actuator.time else signal
         out["states"][state] = {"rate": rate} | ({"start": number(actuator.rest)} if actuator.rest else {})
         signal = _within(f"{state}.value", actuator.activation)
@@ -183,7 +183,7 @@ def actuated(actuator: Actuator, control: str, mechanism: Mechanism, names: Name
         scales, terms = (factor, factor**2, factor**2), ((joint, 1.0),)
     else:
         factor, scales, terms = 1.0, (1.0, 1.0, 1.0), actuator.terms
-    symbols = ("", _length(terms, mechanism, names), _length(terms, mechanism, names, "_rate"))
+    symbols = ("", _length(terms, mechanism), _length(terms, mechanism, "_rate"))
     gain = [a * b for a, b in zip(actuator.gain, scales, strict=True)]
     bias = [a * b for a, b in zip(actuator.bias, scales, strict=True)]
     curved = any(gain[1:])
@@ -197,7 +197,7 @@ def actuated(actuator: Actuator, control: str, mechanism: Mechanism, names: Name
         force = _within(force, (limit[0], limit[1]))
     for joint, part in terms:
         connection = mechanism.measured[joint]
-        motor: dict[str, Any] = {"type": "motor", "coordinate": coordinate_of(connection, names)}
+        motor: dict[str, Any] = {"type": "motor", "coordinate": coordinate_of(connection, mechanism)}
         motor["effort"] = force if part == 1.0 else f"{number(part)!r}*({force})"
         if limit is not None and same and len(terms) == 1:
             motor["limit"] = limit[1]
@@ -207,21 +207,20 @@ def actuated(actuator: Actuator, control: str, mechanism: Mechanism, names: Name
     return out
 
 
-def span_joint(span: Span, mechanism: Mechanism, groups: dict[str, Group], names: Names) -> dict[str, Any]:
+def span_joint(span: Span, mechanism: Mechanism) -> dict[str, Any]:
     """The joint that measures a span."""
-    ends = [_global(link, point, mechanism, groups, names) for link, point in span.ends]
+    ends = [_global(link, point, mechanism) for link, point in span.ends]
     bodies, points = ([each[k] for each in ends] for k in (0, 1))
     return {"type": "variable-distance", "bodies": bodies, "points": points}
 
 
-def rope_force(rope: Rope, mechanism: Mechanism, groups: dict[str, Group], names: Names) -> dict[str, Any]:
+def rope_force(rope: Rope, mechanism: Mechanism) -> dict[str, Any]:
     """The force that a rope is; an end is as stiff as a stop against what stands at its own ends."""
-    ends = [_global(link, point, mechanism, groups, names) for link, point, _ in rope.way]
+    ends = [_global(link, point, mechanism) for link, point, _ in rope.way]
     bodies, points = ([each[k] for each in ends] for k in (0, 1))
     stiffness, damping = rope.stiffness, rope.damping
     if not stiffness:
-        masses = [lumped(mechanism, groups[rope.way[k][0]]) for k in (0, -1) if groups[rope.way[k][0]].first != WORLD]
-        mass = 1.0 / max(sum(1.0 / each.mass for each in masses if each is not None), 1e-12)
+        mass = between(mechanism, [rope.way[k][0] for k in (0, -1)])
         stiffness = mass * (2.0 * math.pi * STOP_FREQUENCY) ** 2
         ratio = -math.log(RESTITUTION) / math.hypot(math.pi, math.log(RESTITUTION))
         damping = 2.0 * ratio * math.sqrt(stiffness * mass)
@@ -231,17 +230,17 @@ def rope_force(rope: Rope, mechanism: Mechanism, groups: dict[str, Group], names
     return out | {"stiffness": float(f"{stiffness:.6g}")} | ({"damping": float(f"{damping:.6g}")} if damping else {})
 
 
-def _global(link: str, point: Array, mechanism: Mechanism, groups: dict[str, Group], names: Names) -> tuple[str, Any]:
+def _global(link: str, point: Array, mechanism: Mechanism) -> tuple[str, Any]:
     """The body of a link, and a point of it, global."""
     if link == WORLD:
         return GROUND, triple(point)
-    place, first = mechanism.links[link].place, groups[link].first
-    return GROUND if first == WORLD else names.name("body", first), triple(place.axes @ point + place.origin)
+    place = mechanism.links[link].place
+    return mechanism.body(link), triple(place.axes @ point + place.origin)
 
 
-def pulled(tendon: Tendon, effective: float, mechanism: Mechanism, names: Names) -> dict[str, Any]:
+def pulled(tendon: Tendon, effective: float, mechanism: Mechanism) -> dict[str, Any]:
     """Motors of a tendon by the wanted name. effective : mass at its length [kg or kg m²]."""
-    length, rate = _length(tendon.terms, mechanism, names), _length(tendon.terms, mechanism, names, "_rate")
+    length, rate = _length(tendon.terms, mechanism), _length(tendon.terms, mechanism, "_rate")
     parts = []
     for stiffness, ends in (
         (tendon.stiffness, tendon.free),
@@ -258,7 +257,7 @@ def pulled(tendon: Tendon, effective: float, mechanism: Mechanism, names: Names)
     return {
         f"{tendon.name}_{joint}": {
             "type": "motor",
-            "coordinate": coordinate_of(joints[joint], names),
+            "coordinate": coordinate_of(joints[joint], mechanism),
             "effort": f"{number(-factor)!r}*({' + '.join(parts)})",
         }
         for joint, factor in tendon.terms

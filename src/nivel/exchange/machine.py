@@ -11,10 +11,9 @@ from nivel.errors import Fault, refuse
 from nivel.exchange import joint_forces
 from nivel.exchange.bodies import (
     MASSLESS,
-    Group,
+    between,
     carried,
     elementary_turn,
-    groups_of,
     inertia_about,
     lumped,
     marker_frame,
@@ -26,9 +25,8 @@ from nivel.exchange.bodies import (
 from nivel.exchange.contacts import contacts_of, meet
 from nivel.exchange.looks import Drawing
 from nivel.exchange.mechanism import MOST_LINKS, WORLD, Connection, Frame, Inertial, Mechanism
-from nivel.exchange.translation import Names, Translation, number, triple, turn
+from nivel.exchange.translation import Translation, number, triple, turn
 from nivel.machine.core.placement import frame_from_axes
-from nivel.machine.core.record import GROUND
 
 NEARLY: Final = 2e-6  # [rad] between axes that a machine may take as parallel
 ROUND_OFF: Final = 1e-15  # [rad]
@@ -39,77 +37,76 @@ LIGHT: Final = "a link without mass between joints has 1e-15 of the mass that it
 
 def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation:
     """The machine that a mechanism is. Raises ModelError with all links and joints that cannot be translated."""
-    faults: list[Fault] = []
-    _check(mechanism, file, faults)
-    refuse(faults)
-    names, groups = Names(), groups_of(mechanism)
-    offset(mechanism, groups)
+    mechanism.file = file
+    _check(mechanism)
+    refuse(mechanism.faults)
+    offset(mechanism)
     starts = joint_forces.start_values(mechanism)
-    if _is_tree(mechanism, groups) and _has_free_root(mechanism, groups):  # which the assembly would turn
+    if _is_tree(mechanism) and _has_free_root(mechanism):  # which the assembly would turn
         for each in mechanism.connections:
             if each.name in starts:
-                move_to(mechanism, groups, each, starts[each.name])
-    meet(mechanism, groups, drawing)
+                move_to(mechanism, each, starts[each.name])
+    meet(mechanism, drawing)
     data: dict[str, Any] = {"name": _title(mechanism.name)}
-    bodies, looks_of_ground = _bodies(mechanism, groups, names, drawing, faults, file)
+    bodies, looks_of_ground = _bodies(mechanism, drawing)
     joints = {
-        names.name("joint", each.name): _joint(each, mechanism, groups, names)
+        mechanism.names.name("joint", each.name): _joint(each, mechanism)
         for each in mechanism.connections
         if each.kind != "fixed"
     }
-    refuse(faults)
+    refuse(mechanism.faults)
     if not bodies:
         refuse([Fault(file, 1, 1, "", "nothing in this model moves: every link is fixed to the ground")])
-    joint_forces.add_starts(mechanism, starts, names, joints)
+    joint_forces.add_starts(mechanism, starts, joints)
     couplings, forces, inputs, states = {}, {}, {}, {}
     at_joint: dict[str, float] = {}
     for each in mechanism.connections:
-        coupling = joint_forces.coupling_of(each, mechanism, names)
+        coupling = joint_forces.coupling_of(each, mechanism)
         if coupling is not None:
-            couplings[names.new(f"{each.name}_mimic", "coupling")] = coupling
-        moved = carried(mechanism, groups, each)
+            couplings[mechanism.names.new(f"{each.name}_mimic", "coupling")] = coupling
+        moved = carried(mechanism, each)
         effective = inertia_about(mechanism, moved, each.point, each.axes[0] if each.coordinate == "angle" else None)
         at_joint[each.name] = effective + each.armature
         if each.kind != "fixed":
-            joint = names.name("joint", each.name)
+            joint = mechanism.names.name("joint", each.name)
             joints[joint] |= joint_forces.parts_of(each, effective + each.armature, mechanism)
             for made in ("stop", "friction"):
-                names.new(f"{joint}_{made}", "force")
-        for suffix, force in joint_forces.spring_of(each, names).items():
-            forces[names.new(f"{each.name}_{suffix}", "force")] = force
+                mechanism.names.new(f"{joint}_{made}", "force")
+        for suffix, force in joint_forces.spring_of(each, mechanism).items():
+            forces[mechanism.names.new(f"{each.name}_{suffix}", "force")] = force
     for span in mechanism.spans:
-        joints[names.name("joint", span.name)] = joint_forces.span_joint(span, mechanism, groups, names)
-        weights = [lumped(mechanism, groups[link]) for link, _ in span.ends if groups[link].first != WORLD]
-        at_joint[span.name] = 1.0 / max(sum(1.0 / each.mass for each in weights if each is not None), 1e-12)
+        joints[mechanism.names.name("joint", span.name)] = joint_forces.span_joint(span, mechanism)
+        at_joint[span.name] = between(mechanism, [link for link, _ in span.ends])
     for name, terms in mechanism.sums:
-        of = {name: joint_forces.coordinate_of(each, names) for name, each in mechanism.measured.items()}
+        of = {name: joint_forces.coordinate_of(each, mechanism) for name, each in mechanism.measured.items()}
         coupling = {
             "type": "linear",
             "coordinates": [of[joint] for joint, _ in terms],
             "factors": [number(f) for _, f in terms],
         }
-        couplings[names.new(name, "coupling")] = coupling
+        couplings[mechanism.names.new(name, "coupling")] = coupling
     for actuator in mechanism.actuators:
-        control = names.name("input", actuator.name)
-        made = joint_forces.actuated(actuator, control, mechanism, names)
+        control = mechanism.names.name("input", actuator.name)
+        made = joint_forces.actuated(actuator, control, mechanism)
         inputs, states = inputs | made["inputs"], states | made["states"]
-        forces |= {names.new(name, "force"): force for name, force in made["forces"].items()}
+        forces |= {mechanism.names.new(name, "force"): force for name, force in made["forces"].items()}
     for tendon in mechanism.tendons:
         effective = 1.0 / sum(factor**2 / max(at_joint[joint], 1e-12) for joint, factor in tendon.terms)
-        made = joint_forces.pulled(tendon, effective, mechanism, names)
-        forces |= {names.new(name, "force"): force for name, force in made.items()}
+        made = joint_forces.pulled(tendon, effective, mechanism)
+        forces |= {mechanism.names.new(name, "force"): force for name, force in made.items()}
     for rope in mechanism.ropes:
-        forces[names.new(rope.name, "force")] = joint_forces.rope_force(rope, mechanism, groups, names)
+        forces[mechanism.names.new(rope.name, "force")] = joint_forces.rope_force(rope, mechanism)
     for link, point, vector in mechanism.lifts:
-        group = groups[link]
-        if group.first != WORLD:
-            at = marker_frame(mechanism, group, link) @ Frame(origin=point)
-            force = {"type": "force", "body": names.name("body", group.first), "position": triple(at.origin)}
-            forces[names.new(f"{link}_gravcomp", "force")] = force | {"vector": [number(each) for each in vector]}
-    markers = _markers(mechanism, groups, names)
-    solids, contacts = contacts_of(mechanism, groups, names, drawing)
+        if mechanism.groups[link].first != WORLD:
+            at = marker_frame(mechanism, link) @ Frame(origin=point)
+            force = {"type": "force", "body": mechanism.body(link), "position": triple(at.origin)}
+            forces[mechanism.names.new(f"{link}_gravcomp", "force")] = force | {
+                "vector": [number(each) for each in vector]
+            }
+    markers = _markers(mechanism)
+    solids, contacts = contacts_of(mechanism, drawing)
     markers, forces = markers | solids, forces | contacts
-    changed = names.changed(("body", "marker", "joint", "input"))
+    changed = mechanism.names.changed(("body", "marker", "joint", "input"))
     if changed:
         mechanism.notes.change("names that nivel does not take were changed", "; ".join(changed))
         data["description"] = f"Names in {mechanism.format}: {'; '.join(changed)}."
@@ -125,7 +122,7 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
         "states": states,
     }
     data |= {name: section for name, section in sections.items() if section}
-    if _is_tree(mechanism, groups) and _nearly_parallel(mechanism):
+    if _is_tree(mechanism) and _nearly_parallel(mechanism):
         data["assembly"] = {"parallel": 0.0}
         mechanism.notes.change("axes that are parallel to six digits only stay as they are: `assembly: {parallel: 0}`")
     settings: dict[str, Any] = {} if mechanism.step is None or contacts else {"step": mechanism.step}
@@ -137,17 +134,17 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
     data |= {"simulation": settings} if settings else {}
     if losses := mechanism.notes.losses():
         data["left_out"] = losses
-    return Translation(file, mechanism.format, data, mechanism.notes, drawing.made, _lines(mechanism, names))
+    return Translation(file, mechanism.format, data, mechanism.notes, drawing.made, _lines(mechanism))
 
 
-def _lines(mechanism: Mechanism, names: Names) -> dict[str, tuple[int, str]]:
+def _lines(mechanism: Mechanism) -> dict[str, tuple[int, str]]:
     """Where the elements that a link or a joint became come from, by their names."""
     out = {}
     for kind, tag, each in (
         *(("body", "link", each) for each in mechanism.links.values()),
         *(("joint", "joint", each) for each in mechanism.connections),
     ):
-        name = names.of.get((kind, each.name))
+        name = mechanism.names.of.get((kind, each.name))
         at = (each.line or 1, f'<{tag if mechanism.format != "MJCF" else kind} name="{each.name}">')
         ends = (
             ("", "_stop", "_friction", "_spring", "_damper", "_rotor", "_rotor_gear", "_mimic")
@@ -158,16 +155,16 @@ def _lines(mechanism: Mechanism, names: Names) -> dict[str, tuple[int, str]]:
     return out
 
 
-def _is_tree(mechanism: Mechanism, groups: dict[str, Group]) -> bool:
+def _is_tree(mechanism: Mechanism) -> bool:
     """Whether no body is the second of two joints."""
-    second = [groups[each.bodies[1]].first for each in mechanism.connections if each.kind != "fixed"]
+    second = [mechanism.groups[each.bodies[1]].first for each in mechanism.connections if each.kind != "fixed"]
     return len(second) == len(set(second))
 
 
-def _has_free_root(mechanism: Mechanism, groups: dict[str, Group]) -> bool:
+def _has_free_root(mechanism: Mechanism) -> bool:
     """Whether a body that carries others is the second of no joint."""
-    second = {groups[each.bodies[1]].first for each in mechanism.connections if each.kind != "fixed"}
-    return any(groups[each.bodies[0]].first not in second | {WORLD} for each in mechanism.connections)
+    second = {mechanism.groups[each.bodies[1]].first for each in mechanism.connections if each.kind != "fixed"}
+    return any(mechanism.groups[each.bodies[0]].first not in second | {WORLD} for each in mechanism.connections)
 
 
 def _nearly_parallel(mechanism: Mechanism) -> bool:
@@ -185,36 +182,30 @@ def _title(name: str) -> str:
     return kept[:100] or "model"
 
 
-def _check(mechanism: Mechanism, file: str, faults: list[Fault]) -> None:
+def _check(mechanism: Mechanism) -> None:
     if len(mechanism.links) > MOST_LINKS:
-        faults.append(Fault(file, 1, 1, "", f"{len(mechanism.links)} links; up to {MOST_LINKS} are translated"))
+        mechanism.fault(1, "", f"{len(mechanism.links)} links; up to {MOST_LINKS} are translated")
     for each in mechanism.connections:
         where = f'<joint name="{each.name}">'
         unknown = [link for link in each.bodies if link != WORLD and link not in mechanism.links]
-        faults += [Fault(file, each.line, 1, where, f"there is no link `{link}`") for link in unknown]
+        for link in unknown:
+            mechanism.fault(each.line, where, f"there is no link `{link}`")
         if each.bodies[0] == each.bodies[1]:
-            faults.append(Fault(file, each.line, 1, where, f"the joint connects `{each.bodies[0]}` with itself"))
+            mechanism.fault(each.line, where, f"the joint connects `{each.bodies[0]}` with itself")
         if not all(0.0 < float(axis @ axis) < math.inf for axis in each.axes):
-            faults.append(Fault(file, each.line, 1, where, "the axis has no direction: it is zero, or as good as that"))
+            mechanism.fault(each.line, where, "the axis has no direction: it is zero, or as good as that")
 
 
-def _bodies(
-    mechanism: Mechanism,
-    groups: dict[str, Group],
-    names: Names,
-    drawing: Drawing,
-    faults: list[Fault],
-    file: str,
-) -> tuple[dict[str, Any], list[Any]]:
+def _bodies(mechanism: Mechanism, drawing: Drawing) -> tuple[dict[str, Any], list[Any]]:
     """Data of all bodies by name, and what is drawn on the ground."""
     bodies: dict[str, Any] = {}
     on_ground: list[Any] = []
-    loose = _without_joints(mechanism, groups)
-    for first, group in {group.first: group for group in groups.values()}.items():
+    loose = _without_joints(mechanism)
+    for first, group in {group.first: group for group in mechanism.groups.values()}.items():
         drawn = [
             shape
             for name in group.links
-            for shape in drawing.shapes(mechanism.links[name], marker_frame(mechanism, group, name), mechanism.notes)
+            for shape in drawing.shapes(mechanism.links[name], marker_frame(mechanism, name), mechanism.notes)
         ]
         if first == WORLD:
             on_ground = drawn
@@ -229,34 +220,36 @@ def _bodies(
             if first in loose:
                 mechanism.notes.leave("links without mass and without joints", link.name, link.line)
                 continue
-            inertial = _light(mechanism, groups, first, faults, file)
+            inertial = _light(mechanism, first)
         else:
-            inertial = possible(inertial, link, mechanism, faults, file)
+            inertial = possible(inertial, link, mechanism)
         body: dict[str, Any] = {"position": triple(link.place.origin), **turn(link.place.axes)}
         body |= {"mass": inertial.mass, "centre_of_mass": triple(inertial.centre), "inertia": _inertia(inertial)}
         body = {key: value for key, value in body.items() if key not in ("position", "centre_of_mass") or any(value)}
-        bodies[names.name("body", first)] = body | ({"looks": drawn} if drawn else {})
+        bodies[mechanism.names.name("body", first)] = body | ({"looks": drawn} if drawn else {})
     return bodies, on_ground
 
 
-def _without_joints(mechanism: Mechanism, groups: dict[str, Group]) -> set[str]:
-    joined = {groups[name].first for each in mechanism.connections if each.kind != "fixed" for name in each.bodies}
-    return {group.first for group in groups.values()} - joined
+def _without_joints(mechanism: Mechanism) -> set[str]:
+    joined = {
+        mechanism.groups[name].first for each in mechanism.connections if each.kind != "fixed" for name in each.bodies
+    }
+    return {group.first for group in mechanism.groups.values()} - joined
 
 
-def _light(mechanism: Mechanism, groups: dict[str, Group], first: str, faults: list[Fault], file: str) -> Inertial:
+def _light(mechanism: Mechanism, first: str) -> Inertial:
     """Mass and inertia of a link that has none and moves: by what it carries."""
     link = mechanism.links[first]
     beyond = [
         name
         for each in mechanism.connections
-        if groups[each.bodies[0]].first == first and each.kind != "fixed"
-        for name in carried(mechanism, groups, each)
+        if mechanism.groups[each.bodies[0]].first == first and each.kind != "fixed"
+        for name in carried(mechanism, each)
     ]
     mass = inertia_about(mechanism, beyond, np.zeros(3), None)
     if mass <= 0.0:
         message = "the link moves and has no mass; give it `<inertial>`, or connect it by a fixed joint"
-        faults.append(Fault(file, link.line, 1, f'<link name="{link.name}">', message))
+        mechanism.fault(link.line, f'<link name="{link.name}">', message)
         mass = 1.0
     else:
         mechanism.notes.change(LIGHT, link.name, link.line)
@@ -272,11 +265,11 @@ def _inertia(inertial: Inertial) -> Any:
     return moments | {key: value for key, value in products.items() if value}
 
 
-def _joint(each: Connection, mechanism: Mechanism, groups: dict[str, Group], names: Names) -> dict[str, Any]:
-    bodies = [GROUND if groups[name].first == WORLD else names.name("body", groups[name].first) for name in each.bodies]
+def _joint(each: Connection, mechanism: Mechanism) -> dict[str, Any]:
+    bodies = [mechanism.body(name) for name in each.bodies]
     rotor = {"rotor_inertia": number(each.armature)} if each.armature else {}
     if each.placed or each.frames is not None:
-        return {"type": each.kind, "markers": _joint_markers(each, mechanism, groups, bodies), **rotor}
+        return {"type": each.kind, "markers": _joint_markers(each, mechanism), **rotor}
     out: dict[str, Any] = {"type": each.kind, "bodies": bodies, "point": triple(each.point)}
     if len(each.axes) == 1:
         out["axis"] = triple(each.axes[0])
@@ -287,43 +280,33 @@ def _joint(each: Connection, mechanism: Mechanism, groups: dict[str, Group], nam
     return out | rotor
 
 
-def _joint_markers(
-    each: Connection, mechanism: Mechanism, groups: dict[str, Group], bodies: list[str]
-) -> list[dict[str, Any]]:
+def _joint_markers(each: Connection, mechanism: Mechanism) -> list[dict[str, Any]]:
     """The two markers of a joint whose coordinate is not zero where the links stand: z along its axis."""
     if each.frames is not None:
-        first, second = (
-            (Frame() if name == WORLD else mechanism.links[name].place) @ frame
-            for name, frame in zip(each.bodies, each.frames, strict=True)
-        )
-        return _markers_at((first, second), each, mechanism, groups, bodies)
-    first = Frame(frame_from_axes(each.axes[0]), each.point)
-    if each.kind == "revolute":
-        second = Frame(first.axes @ elementary_turn(np.array([0.0, 0.0, 1.0]), each.placed), each.point)
+        places = [Frame() if name == WORLD else mechanism.links[name].place for name in each.bodies]
+        frames = [place @ frame for place, frame in zip(places, each.frames, strict=True)]
     else:
-        second = Frame(first.axes, each.point + each.placed * first.axes[:, 2])
-    return _markers_at((first, second), each, mechanism, groups, bodies)
-
-
-def _markers_at(
-    frames: tuple[Frame, Frame], each: Connection, mechanism: Mechanism, groups: dict[str, Group], bodies: list[str]
-) -> list[dict[str, Any]]:
-    """Global frames as markers of the two bodies of a joint."""
+        first = Frame(frame_from_axes(each.axes[0]), each.point)
+        if each.kind == "revolute":
+            second = Frame(first.axes @ elementary_turn(np.array([0.0, 0.0, 1.0]), each.placed), each.point)
+        else:
+            second = Frame(first.axes, each.point + each.placed * first.axes[:, 2])
+        frames = [first, second]
     out = []
-    for name, body, frame in zip(each.bodies, bodies, frames, strict=True):
-        first = groups[name].first
+    for name, frame in zip(each.bodies, frames, strict=True):
+        first = mechanism.groups[name].first
         inside = frame if first == WORLD else mechanism.links[first].place.inverse @ frame
-        out.append({"body": body, "position": triple(inside.origin), **turn(inside.axes)})
+        out.append({"body": mechanism.body(name), "position": triple(inside.origin), **turn(inside.axes)})
     return out
 
 
-def _markers(mechanism: Mechanism, groups: dict[str, Group], names: Names) -> dict[str, Any]:
+def _markers(mechanism: Mechanism) -> dict[str, Any]:
     """Frames of links that became part of another body."""
     out = {}
-    for name, group in groups.items():
+    for name, group in mechanism.groups.items():
         if name not in (WORLD, group.first):
-            out[names.name("marker", name)] = marker_on(name, Frame(), mechanism, groups, names)
+            out[mechanism.names.name("marker", name)] = marker_on(name, Frame(), mechanism)
             mechanism.notes.change("links on fixed joints are parts of their bodies, their frames are markers", name)
     for name, link, inside in mechanism.sites:
-        out[names.name("marker", name)] = marker_on(link, inside, mechanism, groups, names)
+        out[mechanism.names.name("marker", name)] = marker_on(link, inside, mechanism)
     return out

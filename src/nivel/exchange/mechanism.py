@@ -7,13 +7,16 @@ of a link.
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.exchange.translation import Notes
+from nivel.errors import Fault
+from nivel.exchange.translation import Names, Notes
 from nivel.lazy import dataclass, field
+from nivel.machine.core.record import GROUND
 from nivel.machine.core.vectors import Array
 
 Triple = tuple[float, float, float]
@@ -222,12 +225,20 @@ class Touch:
 
 
 @dataclass
+class Group:
+    """Links that move as one. first : the one whose frame is that of the body, WORLD for the ground. links : all of them."""
+
+    first: str
+    links: list[str] = field(default_factory=list)
+
+
+@dataclass
 class Mechanism:
     """links by name, and what connects them. gravity : (3,) [m/s²].
 
     sites : further frames, (name, link, frame in the link). lifts : constant forces, (link, point in the link, force in global axes).
     step : of its simulation [s]. solids, touches : what touches, by name, and pairs of it. stands : whether a ground is put below what
-    touches and moves. sums : lengths by name that stay as they are.
+    touches and moves. sums : lengths by name that stay as they are. names, faults : of its translation, from a `file`.
     """
 
     name: str
@@ -247,6 +258,42 @@ class Mechanism:
     sums: list[tuple[str, Terms]] = field(default_factory=list)
     spans: list[Span] = field(default_factory=list)
     ropes: list[Rope] = field(default_factory=list)
+    names: Names = field(default_factory=Names)
+    file: str = ""
+    faults: list[Fault] = field(default_factory=list)
+
+    def fault(self, line: int, where: str, message: str) -> None:
+        """Remember what is wrong in a line of the file."""
+        self.faults.append(Fault(self.file, line, 1, where, message))
+
+    def body(self, link: str) -> str:
+        """Name in the machine file of the body that a link is part of."""
+        first = self.groups[link].first
+        return GROUND if first == WORLD else self.names.name("body", first)
+
+    @cached_property
+    def groups(self) -> dict[str, Group]:
+        """The group of every link and of WORLD, by name of the link; the first link is the one nearest to the root."""
+        parent: dict[str, str] = {name: name for name in (WORLD, *self.links)}
+
+        def root(name: str) -> str:
+            while parent[name] != name:
+                parent[name] = parent[parent[name]]
+                name = parent[name]
+            return name
+
+        for each in self.connections:
+            if each.kind != "fixed":
+                continue
+            first, second = map(root, each.bodies)
+            if second == WORLD:
+                first, second = second, first
+            if first != second:
+                parent[second] = first
+        found = {name: Group(name) for name in dict.fromkeys(map(root, parent))}
+        for name in self.links:
+            found[root(name)].links.append(name)
+        return {name: found[root(name)] for name in parent}
 
     @property
     def measured(self) -> dict[str, Connection | Span]:

@@ -21,11 +21,12 @@ from nivel.flexible.model.records import (
     Frame,
     InterfaceRecord,
     Matrices,
+    Part,
     Recovery,
     Reduction,
     ShapeFunction,
+    Solid,
 )
-from nivel.flexible.model.solid_records import Part, Solid
 from nivel.flexible.reduce import reduce, reduce_model
 from nivel.machine.core.record import field_words
 

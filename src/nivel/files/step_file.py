@@ -56,8 +56,8 @@ def _read(file: str, _changed: int) -> tuple[Solid, ...]:
 
 def solids_here(file: str) -> tuple[Solid, ...]:
     """The same in this process, which a damaged file may end."""
-    gmsh = needed("gmsh", "STEP files need")
-    with _session(gmsh):
+    with gmsh_session("STEP files need") as gmsh:
+        gmsh.option.setNumber("Geometry.OCCImportLabels", 1)
         try:
             found = gmsh.model.occ.importShapes(file, highestDimOnly=True)
             gmsh.model.occ.synchronize()
@@ -75,16 +75,17 @@ def solids_here(file: str) -> tuple[Solid, ...]:
 
 
 @contextmanager
-def _session(gmsh: Any) -> Iterator[None]:
+def gmsh_session(needs: str) -> Iterator[Any]:
+    """gmsh with a model of its own, lengths in metres. needs : what needs it, for messages."""
+    gmsh = needed("gmsh", needs)
     own = not gmsh.isInitialized()
     if own:
         gmsh.initialize(interruptible=False)
     gmsh.option.setNumber("General.Terminal", 0)
     gmsh.option.setString("Geometry.OCCTargetUnit", "M")
-    gmsh.option.setNumber("Geometry.OCCImportLabels", 1)
-    gmsh.model.add("step")
+    gmsh.model.add("nivel")
     try:
-        yield
+        yield gmsh
     finally:
         gmsh.model.remove()
         if own:

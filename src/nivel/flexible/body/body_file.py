@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from io import BytesIO
 from pathlib import Path
@@ -16,7 +16,7 @@ from nivel import __version__
 from nivel.errors import ModelError
 from nivel.files.target import write_file
 from nivel.flexible.body.body import Array, Interface, LeftOut, MeshError, ReducedBody, StressModes
-from nivel.flexible.body.invariants import UNITS, Invariants
+from nivel.flexible.body.invariants import Invariants
 from nivel.lazy import h5py
 
 KIND: Final = "flexible body"
@@ -25,17 +25,17 @@ AXES: Final = ("x", "y", "z", "rx", "ry", "rz")
 STRESS: Final = ("xx", "yy", "zz", "xy", "yz", "zx")
 PAIRS: Final = ("xx", "yy", "zz", "xy", "yz", "zx")
 
-# Dimensions of the variables; `mode_` is a second dimension of the length of `mode`, for NetCDF wants each only once.
-INVARIANT_DIMS: Final = {
-    "I1": (),
-    "I2": ("xyz",),
-    "I3": ("xyz", "mode"),
-    "I4": ("xyz", "mode"),
-    "I5": ("mode", "xyz", "mode_"),
-    "I6": ("mode", "mode_"),
-    "I7": ("xyz", "xyz_"),
-    "I8": ("mode", "xyz", "xyz_"),
-    "I9": ("mode", "mode_", "xyz", "xyz_"),
+# Units and dimensions of the variables; `mode_` is a second dimension of the length of `mode`, for NetCDF wants each only once.
+INVARIANTS: Final = {
+    "I1": ("kg",),
+    "I2": ("kg m", "xyz"),
+    "I3": ("kg^0.5", "xyz", "mode"),
+    "I4": ("kg^0.5 m", "xyz", "mode"),
+    "I5": ("1", "mode", "xyz", "mode_"),
+    "I6": ("1", "mode", "mode_"),
+    "I7": ("kg m^2", "xyz", "xyz_"),
+    "I8": ("kg^0.5 m", "mode", "xyz", "xyz_"),
+    "I9": ("1", "mode", "mode_", "xyz", "xyz_"),
 }
 STIFFENING_DIMS: Final = {"acceleration": "xyz", "angular_acceleration": "xyz", "centrifugal": "pair"}
 LEFT_OUT: Final = {
@@ -99,7 +99,7 @@ class _Writer:
         dataset.make_scale(dimension)
         self.scales[dimension] = dataset
 
-    def put(self, name: str, data: Any, dims: tuple[str, ...], units: str, long_name: str) -> None:
+    def put(self, name: str, data: Any, dims: Sequence[str], units: str, long_name: str) -> None:
         """A variable."""
         dataset = self.file.create_dataset(name, data=data)
         dataset.attrs.update({"units": units, "long_name": long_name})
@@ -124,9 +124,8 @@ def _write(out: _Writer, body: ReducedBody) -> None:
         out.length(dimension, length)
     out.put("eigenvalue", body.eigenvalues, ("mode",), "1/s^2", "stiffness of the modes of unit modal mass")
     out.put("frequency", body.frequencies, ("mode",), "Hz", "frequency of the modes for the reference conditions")
-    for each in fields(Invariants):
-        name = each.name
-        out.put(name, getattr(body.invariants, name), INVARIANT_DIMS[name], UNITS[name], f"inertia invariant {name}")
+    for name, (units, *dims) in INVARIANTS.items():
+        out.put(name, getattr(body.invariants, name), dims, units, f"inertia invariant {name}")
     out.put("node_id", body.node_ids, ("node",), "1", "number of the node in the model")
     out.put("node_position", body.position, ("node", "xyz"), "m", "undeformed place in the body frame")
     text = "displacement [kg^-0.5] and turn [kg^-0.5 m^-1] of nodes by the modes"
@@ -214,7 +213,7 @@ def _read(file: Any) -> ReducedBody:
     def array(name: str) -> Any:
         return file[name][()]
 
-    invariants = Invariants(**{name: array(name) for name in INVARIANT_DIMS})
+    invariants = Invariants(**{name: array(name) for name in INVARIANTS})
     modes, position = array("node_mode"), array("node_position")
     names = [str(name) for name in file["interface"].asstr()[()]]
     interfaces = tuple(

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.lazy import dataclass, fields
+from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
 
 LEVI_CIVITA = np.zeros((3, 3, 3))
@@ -57,20 +57,6 @@ class Invariants:
             np.einsum("jab,jl->lab", self.I8, C),
             np.einsum("jkab,jl,km->lmab", self.I9, C, C, optimize=True),
         )
-
-
-UNITS = {
-    "I1": "kg",
-    "I2": "kg m",
-    "I3": "kg^0.5",
-    "I4": "kg^0.5 m",
-    "I5": "1",
-    "I6": "1",
-    "I7": "kg m^2",
-    "I8": "kg^0.5 m",
-    "I9": "1",
-}
-assert set(UNITS) == {field.name for field in fields(Invariants)}
 
 
 def tilde(v: Array) -> Array:

@@ -8,10 +8,9 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BeforeValidator
 
 from nivel.elements.beams.sections import Material, SectionRecord
-from nivel.flexible.model.solid_records import Solid
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import Truth
-from nivel.machine.core.record import Name, unknown_word
+from nivel.machine.core.record import FileName, Name, unknown_word
 from nivel.machine.given import Field, ManyNames, Maybe, OneNumber, OneRecord, TwoNames, TwoNumbers
 from nivel.machine.machine_record import Title
 from nivel.machine.units.quantity import (
@@ -42,7 +41,7 @@ def _text(value: Any) -> str:
     return value
 
 
-FileName = Annotated[str, BeforeValidator(_text)]
+Text = Annotated[str, BeforeValidator(_text)]
 
 
 def _node(value: Any) -> Any:
@@ -88,10 +87,10 @@ class Matrices(Checked):
     """Stiffness and mass matrices, and nodes, from files of another program."""
 
     format: Literal["nastran", "op4", "abaqus", "calculix", "matrix-market"]
-    stiffness: FileName
-    mass: FileName | None = Field(default=None, description="default: the file of the stiffness has both")
-    freedoms: FileName | None = Field(default=None, description="which node and direction each row is")
-    nodes: FileName = Field(description="a mesh (.inp), bulk data (.bdf, .dat) or a table (.csv)")
+    stiffness: Text
+    mass: Text | None = Field(default=None, description="default: the file of the stiffness has both")
+    freedoms: Text | None = Field(default=None, description="which node and direction each row is")
+    nodes: Text = Field(description="a mesh (.inp), bulk data (.bdf, .dat) or a table (.csv)")
     stiffness_name: str | None = Field(default=None, description="name of the matrix in the file")
     mass_name: str | None = Field(default=None, description="name of the matrix in the file")
     units: OneRecord[Units] = Field(default=Units())
@@ -195,7 +194,7 @@ class Reduction(Checked):
 
     modes: Annotated[Modes, BeforeValidator(_modes)] = Modes(count=10)
     method: Literal["craig-bampton", "free-interface", "normal-modes"] = "craig-bampton"
-    shapes: tuple[ShapeFunction, ...] | FileName = Field(default=(), description="of `modes: given`")
+    shapes: tuple[ShapeFunction, ...] | Text = Field(default=(), description="of `modes: given`")
     mass: Literal["consistent", "lumped"] = "consistent"
     reference: str = Field(default="mean-axis", description="mean-axis, or the interface with which the frame moves")
     held: ManyNames[str] = Field(
@@ -225,6 +224,77 @@ class Recovery(Checked):
     stress: Truth = True
     strain: Truth = False
     nodes: Literal["all", "interfaces"] | tuple[int, ...] = Field(default="all", description="where stress is known")
+
+
+class _PartRecord(Checked):
+    cut: Truth = Field(default=False, description="taken away from the parts before it instead of added")
+
+
+class BoxPart(_PartRecord):
+    """A block between two opposite corners."""
+
+    type: Literal["box"] = "box"
+    from_: Position = Field(key="from")
+    to: Position
+
+    def problems(self) -> Iterator[Problem]:
+        if any(a == b for a, b in zip(self.from_, self.to, strict=True)):
+            yield Problem(("to",), "the block has no thickness: `from` and `to` differ along all three axes")
+
+
+class _RoundPart(_PartRecord):
+    from_: Position = Field(key="from")
+    to: Position
+    radius: PositiveLength
+
+    def problems(self) -> Iterator[Problem]:
+        if self.from_ == self.to:
+            yield Problem(("to",), "`from` and `to` are the same point")
+
+
+class CylinderPart(_RoundPart):
+    """A round bar between two points of its axis."""
+
+    type: Literal["cylinder"] = "cylinder"
+
+
+class ConePart(_RoundPart):
+    """A round bar that tapers from `radius` to `end_radius`."""
+
+    type: Literal["cone"] = "cone"
+    end_radius: PositiveLength
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if self.radius == self.end_radius:
+            yield Problem(("end_radius",), "equal radii make a `cylinder`")
+
+
+class SpherePart(_PartRecord):
+    """A ball."""
+
+    type: Literal["sphere"] = "sphere"
+    centre: Position
+    radius: PositiveLength
+
+
+Part = Annotated[BoxPart | CylinderPart | ConePart | SpherePart, Field(discriminator="type")]
+
+
+class Solid(Checked):
+    """A solid of one material, meshed with tetrahedra of ten nodes."""
+
+    parts: tuple[Part, ...] = ()
+    file: FileName | None = Field(default=None, description="a STEP file")
+    material: Name
+    element_size: PositiveLength
+    tagged = {"parts": 2}  # noqa: RUF012
+
+    def problems(self) -> Iterator[Problem]:
+        if (self.file is None) == (not self.parts):
+            yield Problem((), "either `parts` or a `file` was expected")
+        if self.parts and self.parts[0].cut:
+            yield Problem(("parts", 0, "cut"), "the first part has nothing to be cut from")
 
 
 class ModelRecord(Checked):

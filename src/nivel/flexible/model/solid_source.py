@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final
 
@@ -15,11 +14,12 @@ from nivel.elements.beams.sections import Material
 from nivel.errors import ModelError, retold
 from nivel.extras import needed, require
 from nivel.files.apart import apart
+from nivel.files.step_file import gmsh_session
 from nivel.flexible.model.model import Array, FiniteElementModel, PointMass, Sparse, Whole, at_nodes
 from nivel.flexible.model.model_file import Located
+from nivel.flexible.model.records import BoxPart, ConePart, CylinderPart, Part, Solid, SpherePart
 from nivel.flexible.model.selection import NodeSets
 from nivel.flexible.model.solid_elements import SolidBlock, SolidElements, elasticity, surface
-from nivel.flexible.model.solid_records import BoxPart, ConePart, CylinderPart, Part, Solid, SpherePart
 from nivel.flexible.model.solid_shapes import TETRAHEDRON_10
 from nivel.lazy import dataclass, meshio, skfem
 
@@ -39,22 +39,6 @@ class SolidMesh:
     volume: float
 
 
-@contextmanager
-def _session() -> Iterator[Any]:
-    gmsh = needed("gmsh", NEEDS)
-    started = not gmsh.isInitialized()
-    if started:
-        gmsh.initialize(interruptible=False)
-    gmsh.option.setNumber("General.Terminal", 0)
-    gmsh.model.add("nivel")
-    try:
-        yield gmsh
-    finally:
-        gmsh.model.remove()
-        if started:
-            gmsh.finalize()
-
-
 def meshed(solid: Solid, step_file: Path | None) -> SolidMesh:
     """The mesh of a solid: quadratic tetrahedra of about `element_size`, finer around curves.
 
@@ -67,7 +51,7 @@ def meshed(solid: Solid, step_file: Path | None) -> SolidMesh:
 
 def meshed_here(solid: Solid, step_file: Path | None) -> SolidMesh:
     """The same in this process, which a damaged file may end."""
-    with _session() as gmsh:
+    with gmsh_session(NEEDS) as gmsh:
         try:
             volumes = _from_step(gmsh, step_file) if step_file is not None else _from_parts(gmsh, solid.parts)
         except ModelError:
@@ -93,7 +77,6 @@ def meshed_here(solid: Solid, step_file: Path | None) -> SolidMesh:
 def _from_step(gmsh: Any, path: Path) -> list[tuple[int, int]]:
     if not path.is_file():
         raise ModelError(f"there is no file `{path}`")
-    gmsh.option.setString("Geometry.OCCTargetUnit", "M")
     shapes = gmsh.model.occ.importShapes(str(path), highestDimOnly=True)
     volumes = [shape for shape in shapes if shape[0] == 3]
     if len(volumes) > 1:

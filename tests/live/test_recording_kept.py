@@ -248,11 +248,11 @@ def test_a_disk_without_room_leaves_a_journal_that_can_be_read(tmp_path):
             raise OSError(28, "No space left on device")
 
     file = written.file
-    written._file = Full(file)
+    written._growing.stream = Full(file)
     with pytest.raises(OSError, match="No space"):
         written.append(TICKS, np.zeros((1, 10)))
     assert written.path.stat().st_size == whole
-    written._file = file
+    written._growing.stream = file
     written.append(TICKS, np.full((1, 10), 2.0))
     written.close()
     (take,) = read_recording(written.path).takes

@@ -183,6 +183,11 @@ class Model(Elements):
         """Values of the parameters of the machine's file, in SI units; none where the machine was written in Python."""
         return NamedValues("parameter", self._file_names.parameters)
 
+    def decides(self, path: str) -> bool:
+        """Whether a parameter of the machine's file decides between pieces of an expression: numbers follow it by several formulas."""
+        section, _, name = path.partition(".")
+        return section.strip() == "parameters" and name.strip() in self._file_names.deciding
+
     @property
     def assemblies(self) -> Mapping[str, Subsystem]:
         """The subsystems that the `assemblies` of the machine's file make, by name."""

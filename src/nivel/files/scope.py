@@ -17,6 +17,7 @@ from nivel.errors import Fault, ModelError, refuse
 from nivel.files.body_files import place_body_files, read_mass_properties
 from nivel.files.code import read_python_laws, read_unit_blocks
 from nivel.files.csv_tables import read_csv_tables
+from nivel.files.deciding import deciding
 from nivel.files.include import include
 from nivel.files.joint_parts import add_joint_parts
 from nivel.files.mesh_file import read_meshes
@@ -68,10 +69,12 @@ def read_known(
 
 @dataclass(frozen=True)
 class FileNames:
-    """What a machine file names beside the elements: values of its parameters, and its assemblies with all their values."""
+    """What a machine file names beside the elements: values of its parameters, and its assemblies with all their values. deciding : the
+    parameters of `nivel.files.deciding`."""
 
     parameters: Mapping[str, float]
     assemblies: Mapping[str, Assembly]
+    deciding: frozenset[str] = frozenset()
 
 
 def read_names(text: str, file: str, sources: Sources, *, overrides: Mapping[str, object]) -> FileNames:
@@ -82,6 +85,7 @@ def read_names(text: str, file: str, sources: Sources, *, overrides: Mapping[str
     return FileNames(
         {name: each.value for name, each in values.items() if isinstance(each, Number)},
         {name: assembly for name, assembly in assemblies.items() if assembly is not None},
+        deciding(tree),
     )
 
 

@@ -211,11 +211,12 @@ class Parameter:
         return abs(self.value) or 1.0
 
 
-def parameters_of(machine: Model, paths: Sequence[str], of: str = "a gradient") -> tuple[Parameter, ...]:
-    """The numbers at these paths. of : whose parameters they are, for messages. Raises ModelError with every path that leads to no number
-    of which a run depends smoothly."""
+def parameters_of(machine: Model, paths: Sequence[str], of: str = "") -> tuple[Parameter, ...]:
+    """The numbers at these paths. of : what has them as parameters, which may take any value there; empty of a gradient. Raises
+    ModelError with every path that leads to no number of which a run depends smoothly."""
     out: list[Parameter] = []
     faults: list[Fault] = []
+    whose = of or "a gradient"
     if not paths:
         faults.append(Fault.at("parameters", "no parameter is given: give paths of numbers, ['bodies.rod.mass']"))
     for path in paths:
@@ -225,9 +226,14 @@ def parameters_of(machine: Model, paths: Sequence[str], of: str = "a gradient") 
             faults += [Fault.at(path, fault.message) for fault in error.faults]
             continue
         if isinstance(value, bool) or not isinstance(value, int | float):
-            faults.append(Fault.at(path, f"the parameter of {of} is a number; here is {shown(value)}"))
+            faults.append(Fault.at(path, f"the parameter of {whose} is a number; here is {shown(value)}"))
         elif path.split(".")[0].strip() == "simulation":
-            faults.append(Fault.at(path, f"settings of a run are no parameters of {of}: it is that of one run"))
+            faults.append(Fault.at(path, f"settings of a run are no parameters of {whose}: it is that of one run"))
+        elif of and machine.decides(path):
+            message = "it decides between pieces of an expression (`if`, `min`, `max`, `abs`, a comparison, a curve)"
+            faults.append(
+                Fault.at(path, f"cannot be a parameter of {of}: {message}, and no one formula follows from it")
+            )
         elif path in (each.path for each in out):
             faults.append(Fault.at(path, "this parameter is given twice"))
         else:

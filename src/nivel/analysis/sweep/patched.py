@@ -175,6 +175,8 @@ def learn(base: Model, rows: Sequence[Mapping[str, Any]], *, judged: bool = Fals
     paths = tuple(rows[0])
     if any(path.partition(".")[0].strip() in ("simulation", "assembly", "include", "assemblies") for path in paths):
         raise UnsuitedError("a setting varies")
+    if deciding := [path for path in paths if base.decides(path)]:
+        raise UnsuitedError(f"`{deciding[0]}` decides between pieces of an expression")
     xs = np.array([read_values(row) for row in rows])
     try:
         return _learned(base, paths, xs, judged=judged)

@@ -142,6 +142,13 @@ def test_an_effort_on_the_wrong_side_is_red(zoo, element, sides, effort):
     assert abs(found.time - zoo.result.time[closed]) <= 0.0051
 
 
+def test_round_off_at_one_end_is_no_effort_at_the_other(zoo):
+    """A stop that rests at its upper end has efforts of both signs at round-off, and never comes near its lower end."""
+    low = zoo.result.array("end.displacement") < -0.19
+    changes = [("end.displacement", low, -0.19), ("force.stop.magnitude", low, 0.0), ("force.stop.magnitude", 3, 1e-17)]
+    assert look_at_sides(replace(zoo, result=Spoilt(zoo.result, changes))) == []
+
+
 ALL, LAST = slice(0, 200), slice(160, 201)
 
 

@@ -29,7 +29,7 @@ from nivel.system.tables import OVER_HEIGHTS, rows_of
 SHOWN = 5  # elements of which each has a line
 # An overlap or an effort below this share of its largest value is none, and an overlap below this share of the size of the machine.
 ROUNDING, PLACE = 1e-9, 1e-12
-# Efforts of friction are found to this share of the largest limit; those below NOTHING [N or N m] are none.
+# Efforts of friction are found to this share of the largest limit; efforts below NOTHING [N or N m] are none.
 FOUND, NOTHING = 1e-5, 1e-12
 # Share of the size of the machine, or angle [rad], by which what holds may slide.
 SLID = 1e-4
@@ -130,6 +130,10 @@ class Frames:
     def numbers(self) -> Numbers:
         return Numbers(self.result, self.run.machine, self.element)
 
+    def _units(self, like: str) -> str:
+        """A second run does not keep those of coordinates."""
+        return Numbers(self.run.result, self.run.machine, self.element).units(like)
+
     def contradictions(self) -> Iterator[Contradiction]:
         """The largest of each kind."""
         for rule in self.element.inequalities:
@@ -142,9 +146,9 @@ class Frames:
     def _acting(self, rule: Acts) -> Iterator[Contradiction]:
         own, of = self.element, self.numbers
         overlap, effort = rule.overlap(own, of), np.abs(rule.effort(own, of))
-        units, size = of.units(rule.like), self.run.scales.size
+        units, size = self._units(rule.like), self.run.scales.size
         least = ROUNDING * _largest(overlap) + PLACE * (size if units == "m" else 1.0)
-        acts = effort > ROUNDING * _largest(effort)
+        acts = effort > ROUNDING * _largest(effort) + NOTHING
         is_open, is_closed = rule.sides
         yield from self._told((overlap < -least) & acts, -overlap, f"{is_open} by {{}} {units} and acts")
         if rule.always(own):
@@ -157,10 +161,10 @@ class Frames:
         effort, limit, slip = rule.effort(own, of), rule.limit(own, of), rule.slip(own, of)
         least = FOUND * max(_largest(limit), _largest(effort)) + NOTHING
         beyond = np.maximum(np.abs(effort) - limit, -effort if rule.one_way else -np.inf)
-        yield from self._told(beyond > least, beyond, f"exerts {{}} {of.units('magnitude')} more than its limit")
+        yield from self._told(beyond > least, beyond, f"exerts {{}} {self._units('magnitude')} more than its limit")
         below = np.abs(effort) < rule.sliding(own, of) - least
         holds = below & (effort > least) if rule.one_way else below
-        units = of.units(rule.like)
+        units = self._units(rule.like)
         yield from self._sliding(holds, np.abs(slip), f"holds and slides by {{}} {units}", units)
         if rule.one_way:
             yield from self._sliding(below & (slip < 0.0), np.abs(slip), f"falls behind by {{}} {units}", units)

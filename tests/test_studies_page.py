@@ -13,8 +13,7 @@ from click import Context
 from nivel.analysis.sweep.outputs import Task
 from nivel.analysis.sweep.variant import run_variant
 from nivel.cli import main
-from nivel.machine.study.output import OUTPUTS
-from nivel.machine.study.parameter import PARAMETERS
+from nivel.machine.study.parameter import OUTPUTS, PARAMETERS
 from nivel.machine.study.study_record import Design, StudyRecord
 from nivel.studies import load_study
 

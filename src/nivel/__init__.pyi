@@ -53,9 +53,9 @@ from nivel.machine.machine_record import MachineRecord as MachineRecord
 from nivel.machine.settings.run import AssemblySettings as AssemblySettings
 from nivel.machine.settings.run import Baumgarte as Baumgarte
 from nivel.machine.settings.run import SimulationSettings as SimulationSettings
-from nivel.machine.signals.event import Event as Event
-from nivel.machine.signals.event import State as State
+from nivel.machine.signals.input import Event as Event
 from nivel.machine.signals.input import Input as Input
+from nivel.machine.signals.input import State as State
 from nivel.machine.signals.sensor import Sensor as Sensor
 from nivel.results.comparison import Comparison as Comparison
 from nivel.results.result import Result as Result

@@ -75,9 +75,9 @@ from nivel.machine.core.element import ForceElement as ForceElement
 from nivel.machine.core.marker import Marker as Marker
 from nivel.machine.laws.time_function import TimeFunction as TimeFunction
 from nivel.machine.machine_record import MachineRecord as MachineRecord
-from nivel.machine.signals.event import Event as Event
-from nivel.machine.signals.event import State as State
+from nivel.machine.signals.input import Event as Event
 from nivel.machine.signals.input import Input as Input
+from nivel.machine.signals.input import State as State
 from nivel.machine.signals.sensor import Sensor as Sensor
 from nivel.results.analyses.linear_model import LinearModel as LinearModel
 from nivel.results.analyses.linear_sweep import LinearSweep as LinearSweep

@@ -10,7 +10,7 @@ import nivel
 from nivel.analysis.sweep.outputs import Task
 from nivel.analysis.sweep.variant import run_variant
 from nivel.files import parse_machine
-from nivel.machine.study.output import Reduced
+from nivel.machine.study.parameter import Reduced
 from nivel.results.curve import REDUCTIONS, curve, curve_of, integral_of_magnitude, largest, turning_values
 
 HERE = Path(__file__).parent

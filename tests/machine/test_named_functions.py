@@ -9,7 +9,7 @@ from nivel.errors import ModelError
 from nivel.files import parse_machine
 from nivel.machine.units.arithmetic import render
 from nivel.machine.units.expression import Expression
-from nivel.machine.units.interpolation import differentiated, pieces
+from nivel.machine.units.functions import differentiated, pieces
 from nivel.machine.units.tree import ExpressionError
 
 TIMES = np.linspace(-0.5, 4.0, 91)

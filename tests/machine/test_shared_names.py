@@ -16,9 +16,8 @@ from nivel.machine.units.arithmetic import bind, evaluate
 from nivel.machine.units.dimension import dimension
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.grammar import parse
-from nivel.machine.units.measure import measure
+from nivel.machine.units.measure import measure, name_notes
 from nivel.machine.units.quantity import read_quantity
-from nivel.machine.units.shared_names import name_notes
 from nivel.machine.units.tree import ExpressionError, Number
 from nivel.machine.units.unit import UNITS
 

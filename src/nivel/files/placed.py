@@ -15,7 +15,7 @@ from nivel.files.substitution import NotRepresentableError, negative
 from nivel.machine.core.between import Ends
 from nivel.machine.core.record import Record, entry
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table
-from nivel.machine.signals.event import State
+from nivel.machine.signals.input import State
 
 
 def placed_component(component: Any, scene: Scene) -> Any:

@@ -32,9 +32,9 @@ from nivel.machine.core.record import Record
 from nivel.machine.laws.named_function import resolve_functions
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.parameters import resolve
+from nivel.machine.units.measure import name_notes
 from nivel.machine.units.plain_factors import with_bodies
 from nivel.machine.units.quantity import FunctionFault
-from nivel.machine.units.shared_names import name_notes
 from nivel.machine.units.tree import Number, Parameters, Signal
 from nivel.machine.uses.references import SECTIONS
 

@@ -20,8 +20,7 @@ from nivel.lazy import dataclass
 from nivel.machine.core.checked import without_problems
 from nivel.machine.core.record import Record, field_words
 from nivel.machine.settings.analyses import SETTINGS
-from nivel.machine.study.output import OUTPUTS
-from nivel.machine.study.parameter import PARAMETERS
+from nivel.machine.study.parameter import OUTPUTS, PARAMETERS
 from nivel.machine.study.study_record import StudyRecord
 from nivel.machine.units.quantity import shown
 

@@ -48,18 +48,17 @@ if TYPE_CHECKING:
     from nivel.elements.circuits.fluids import AnyFluid
     from nivel.elements.joints.couplings import Coupling
     from nivel.elements.joints.drivers import Driver
-    from nivel.machine.signals.event import Event, State
-    from nivel.machine.signals.input import Input
+    from nivel.machine.signals.input import Event, Input, State
     from nivel.machine.signals.sensor import Sensor
 else:  # sections that few machines have
     Beam = Annotated[Any, RecordAt("nivel.elements.beams.beam:Beam")]
     AnyFluid = Annotated[Any, RecordAt("nivel.elements.circuits.fluids:AnyFluid")]
     Coupling = Annotated[Any, RecordAt("nivel.elements.joints.couplings:Coupling")]
     Driver = Annotated[Any, RecordAt("nivel.elements.joints.drivers:Driver")]
-    Event = Annotated[Any, RecordAt("nivel.machine.signals.event:Event")]
+    Event = Annotated[Any, RecordAt("nivel.machine.signals.input:Event")]
     Input = Annotated[Any, RecordAt("nivel.machine.signals.input:Input")]
     Sensor = Annotated[Any, RecordAt("nivel.machine.signals.sensor:Sensor")]
-    State = Annotated[Any, RecordAt("nivel.machine.signals.event:State")]
+    State = Annotated[Any, RecordAt("nivel.machine.signals.input:State")]
 
 LONGEST_NAME: Final = 100  # characters: the files of a run are named after the machine
 

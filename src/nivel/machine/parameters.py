@@ -6,9 +6,8 @@ from collections.abc import Mapping
 
 from nivel.machine.units.arithmetic import NOT_FOR_PARAMETERS, bind, evaluate, given
 from nivel.machine.units.grammar import parse
-from nivel.machine.units.measure import measure
+from nivel.machine.units.measure import measure, shared_names_hint
 from nivel.machine.units.quantity import ANY, lacking_unit
-from nivel.machine.units.shared_names import shared_names_hint
 from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Node, Number, Parameters, names, varies
 
 

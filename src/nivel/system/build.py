@@ -35,9 +35,8 @@ from nivel.system.joint_frames import refuse_unknown_interfaces
 from nivel.system.joint_rows import RowTable, add_joint, coordinate_units
 from nivel.system.layout import first_columns, frame_layout
 from nivel.system.saddle import friction_parts, friction_tables, moved_masses, saddle_tables
-from nivel.system.signals.control import add_control
+from nivel.system.signals.control import add_control, add_states, sampled_states
 from nivel.system.signals.sensors import sensor_columns
-from nivel.system.signals.user_states import add_states, sampled_states
 from nivel.system.system import Equations, System
 from nivel.system.tables import empty, index_array
 

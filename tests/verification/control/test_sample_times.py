@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import nivel
-from nivel.system.signals.user_states import ratio_of, ticks
+from nivel.system.signals.control import ratio_of, ticks
 from simulating import simulate, slide, solid
 
 COUNT = 12

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from nivel.errors import Fault, ModelError, gathered, refuse
 from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
-from nivel.machine.study import output as study
+from nivel.machine.study import parameter as study
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import Quantity
 from nivel.model import Model

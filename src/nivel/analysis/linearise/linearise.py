@@ -12,7 +12,6 @@ from scipy.spatial.transform import Rotation
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.instant import NOTHING, Instant, Lanes, frame_axes, frame_place
 from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues, graded
-from nivel.analysis.linearise.kinks import kinks, let_slide
 from nivel.analysis.linearise.ports import (
     Catalogue,
     Input,
@@ -26,7 +25,7 @@ from nivel.analysis.linearise.ports import (
 from nivel.analysis.linearise.reduction import Reduction, StateSpace, velocity_names
 from nivel.analysis.linearise.rotation import rotating
 from nivel.analysis.linearise.sampled import at_rest, held_values, sampled_model, samples_of, unrest
-from nivel.analysis.linearise.validity import judged, signed
+from nivel.analysis.linearise.validity import judged, kinks, let_slide, signed
 from nivel.analysis.plan.plan import Methods, Plan, methods_of
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.log import Listener

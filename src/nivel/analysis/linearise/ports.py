@@ -25,7 +25,7 @@ from nivel.kernels.signals import sensor
 from nivel.lazy import dataclass
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.signals.event import State
+from nivel.machine.signals.input import State
 from nivel.machine.units.expression import Expression
 from nivel.system.layout import reported
 from nivel.system.system import Array

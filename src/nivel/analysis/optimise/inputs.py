@@ -18,7 +18,7 @@ from nivel.lazy import dataclass
 from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.study.any_quantity import another_measure
-from nivel.machine.study.output import SCALAR
+from nivel.machine.study.parameter import SCALAR
 from nivel.words.wording import shown, unknown_word
 
 

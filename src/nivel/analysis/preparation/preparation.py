@@ -12,13 +12,12 @@ from numpy.typing import NDArray
 
 from nivel.analysis.assembly.assemble import Assembly, assemble
 from nivel.analysis.assembly.equations import MotionEquations, equations
-from nivel.analysis.assembly.exact_joints import exact_joints
 from nivel.analysis.assembly.implicit import ResidualOptions, constraint_index, with_residual
 from nivel.analysis.assembly.instant import both_assemblies
 from nivel.analysis.assembly.named_freedoms import touches_ground
 from nivel.analysis.assembly.penalties import bound_pivots, penalise, refuse_unknown_rows, soft_rows
 from nivel.analysis.assembly.redundancy import Redundancy, analyse, modal_rows
-from nivel.analysis.assembly.unique_reactions import leave_out, rows_everywhere
+from nivel.analysis.assembly.unique_reactions import exact_joints, leave_out, rows_everywhere
 from nivel.analysis.curves.corners import allowed_steps, corners, jumping_functions
 from nivel.analysis.plan.plan import Methods
 from nivel.analysis.preparation.memory import in_one_piece

@@ -29,8 +29,7 @@ from nivel.kernels.solve.saddle import CONTRADICTORY, MOST_UNSETTLED
 from nivel.lazy import nivel
 from nivel.motion.direct import VISIBLE
 from nivel.system.elimination.partition import forget
-from nivel.system.signals.control import ONCE
-from nivel.system.signals.user_states import ratio_of
+from nivel.system.signals.control import ONCE, ratio_of
 from nivel.system.system import Array, System
 from nivel.system.tables import OVER_HEIGHTS, rows_of
 

@@ -21,7 +21,7 @@ from nivel.analysis.run import prepared_state
 from nivel.analysis.run.dynamics import BEFORE_A_JAM, Loop, failure_of, jam_of, start_loop, taken_events
 from nivel.analysis.run.fitting import fitted
 from nivel.analysis.run.narrow_features import remembered
-from nivel.analysis.run.placing import Placing
+from nivel.analysis.run.prepared_state import Placing
 from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.files.target import written
 from nivel.files.writer import write_machine

@@ -17,7 +17,6 @@ from nivel.analysis.preparation.preparation import Assembled, Prepared, SharedLo
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.progress.pacing import interruptible, terminable
 from nivel.analysis.statics.critical import CriticalPoint, critical_points, is_mechanism, softest
-from nivel.analysis.statics.ends import direction_in_words, no_start, path_ended, without_stiffness
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.frames import Facts, FrameWriter
 from nivel.analysis.statics.free_coordinates import for_statics, loaded_free
@@ -32,7 +31,7 @@ from nivel.analysis.statics.linear import (
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads
 from nivel.analysis.statics.rigid_motions import of_whole
-from nivel.analysis.statics.search import settle
+from nivel.analysis.statics.search import direction_in_words, no_start, path_ended, settle, without_stiffness
 from nivel.analysis.statics.states import depends_on_samples, growing_motions, restlessness
 from nivel.errors import ModelError, SolveError, refuse
 from nivel.integrate.loop.sink import Header

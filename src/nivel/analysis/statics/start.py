@@ -9,13 +9,12 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.plan.plan import Methods, methods_of
 from nivel.analysis.preparation.preparation import Assembled
 from nivel.analysis.statics.critical import is_mechanism, softest
-from nivel.analysis.statics.ends import no_start, without_stiffness
 from nivel.analysis.statics.equations import StateError
 from nivel.analysis.statics.free_coordinates import for_statics, refuse_moving
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.rigid_motions import of_whole
 from nivel.analysis.statics.run import prepare_statics
-from nivel.analysis.statics.search import settle
+from nivel.analysis.statics.search import no_start, settle, without_stiffness
 from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.lazy import dataclass, replace

@@ -14,7 +14,7 @@ from nivel.errors import Fault, ModelError
 from nivel.lazy import dataclass, field
 from nivel.machine.core.vectors import Array
 from nivel.machine.study.any_quantity import another_measure
-from nivel.machine.study.output import (
+from nivel.machine.study.parameter import (
     SCALAR,
     AtEvent,
     AtTime,

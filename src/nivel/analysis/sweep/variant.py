@@ -19,7 +19,7 @@ from nivel.analysis.sweep.variant_runs import JudgedRuns, Ran, VariantRuns, anal
 from nivel.analysis.sweep.variants import Variants
 from nivel.errors import ModelError, NivelError, SolveError, retold
 from nivel.lazy import dataclass, field, replace
-from nivel.machine.study.output import Output
+from nivel.machine.study.parameter import Output
 from nivel.model import Model
 from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.result import Result

@@ -21,7 +21,7 @@ from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.table import Table
 from nivel.machine.units.formula import formula, linear
-from nivel.machine.units.interpolation import pieces
+from nivel.machine.units.functions import pieces
 from nivel.machine.units.quantity import Duration
 
 FOUND = 0.2  # τ [s]

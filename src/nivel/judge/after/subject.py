@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from nivel.analysis.kinematics.drive import Singularity
-    from nivel.analysis.linearise.kinks import Kink
+    from nivel.analysis.linearise.validity import Kink
     from nivel.analysis.plan.plan import Plan
     from nivel.analysis.preparation.preparation import Prepared
     from nivel.analysis.run.attempt import Verified

@@ -7,9 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from nivel.analysis.assembly.equations import equations
-from nivel.analysis.assembly.exact_joints import exact_joints
 from nivel.analysis.assembly.named_freedoms import Freedom, named_freedoms
-from nivel.analysis.assembly.unique_reactions import ReactionFacts, unique_reactions
+from nivel.analysis.assembly.unique_reactions import ReactionFacts, exact_joints, unique_reactions
 from nivel.analysis.plan.beam_facts import BeamFacts, beam_facts
 from nivel.analysis.plan.plan import Methods, Plan
 from nivel.analysis.plan.settings import RunSettings

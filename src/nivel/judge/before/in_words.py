@@ -21,8 +21,7 @@ from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.signals.event import Event, State
-from nivel.machine.signals.input import Input
+from nivel.machine.signals.input import Event, Input, State
 from nivel.machine.signals.sensor import Sensor
 from nivel.machine.units.formula import Formula, LinearFunction
 from nivel.machine.uses.coordinate_reference import resolve

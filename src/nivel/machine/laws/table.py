@@ -14,7 +14,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from nivel.machine.core.record import unknown_word
 from nivel.machine.units.dimension import KINDS
-from nivel.machine.units.interpolation import (
+from nivel.machine.units.functions import (
     FEWEST,
     INTERPOLATIONS,
     PERIODIC,

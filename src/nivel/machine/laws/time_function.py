@@ -20,7 +20,7 @@ from nivel.machine.units import quantity
 from nivel.machine.units.arithmetic import fold, render
 from nivel.machine.units.derivative import derivative
 from nivel.machine.units.expression import Expression
-from nivel.machine.units.interpolation import INTERPOLATIONS
+from nivel.machine.units.functions import INTERPOLATIONS
 from nivel.machine.units.measure import measure, readings
 from nivel.machine.units.slips import is_tonne_compared
 from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Node, Parameters, varies

@@ -12,7 +12,7 @@ from nivel.machine.core.record import Record
 from nivel.machine.given import Field, Given, Maybe
 from nivel.machine.settings.run import Tolerance
 from nivel.machine.settings.values import Count, Names
-from nivel.machine.study.output import Output
+from nivel.machine.study.parameter import Output
 from nivel.machine.units.quantity import Duration, Whole, fault, listed
 from nivel.methods import Analysis, Combination, Drawn
 from nivel.words.arguments import plain

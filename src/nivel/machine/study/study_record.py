@@ -12,8 +12,7 @@ from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.record import NAME
 from nivel.machine.given import Field, Maybe
 from nivel.machine.settings.values import Count, Names
-from nivel.machine.study.output import AtTime, FinalValue, Output, Reduced
-from nivel.machine.study.parameter import Range, StudyParameter, Values
+from nivel.machine.study.parameter import AtTime, FinalValue, Output, Range, Reduced, StudyParameter, Values
 from nivel.machine.units.quantity import Duration, Whole, fault
 from nivel.methods import Analysis, Drawn, Planned
 from nivel.words.wording import shown, unknown_word

@@ -15,8 +15,7 @@ from itertools import pairwise
 from typing import Final, SupportsFloat
 
 from nivel.machine.units import tree
-from nivel.machine.units.functions import FUNCTIONS
-from nivel.machine.units.interpolation import FEWEST, INTERPOLATIONS, interpolated, misses_its_period
+from nivel.machine.units.functions import FEWEST, FUNCTIONS, INTERPOLATIONS, interpolated, misses_its_period
 from nivel.machine.units.slips import spelled
 from nivel.machine.units.unit import UNITS, UnknownUnitError, unit
 

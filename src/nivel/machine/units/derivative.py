@@ -14,8 +14,7 @@ from typing import Final
 from nivel.lazy import dataclass
 from nivel.machine.units import tree
 from nivel.machine.units.arithmetic import evaluate
-from nivel.machine.units.functions import FUNCTIONS, read
-from nivel.machine.units.interpolation import SMOOTH
+from nivel.machine.units.functions import FUNCTIONS, SMOOTH, read
 
 _MOST_LEAVES: Final = 4000  # second derivatives of long products grow with the cube of their length
 _ZERO, _ONE, _TWO = tree.Number(0.0), tree.Number(1.0), tree.Number(2.0)

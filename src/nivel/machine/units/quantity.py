@@ -22,9 +22,8 @@ from nivel.machine.units import tree
 from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, PLACE, bind, evaluate, given
 from nivel.machine.units.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle
 from nivel.machine.units.grammar import parse
-from nivel.machine.units.measure import Reading, measure, refuse_unlike_terms
+from nivel.machine.units.measure import Reading, measure, refuse_unlike_terms, shared_names_hint
 from nivel.machine.units.plain_factors import completed, with_bodies
-from nivel.machine.units.shared_names import shared_names_hint
 from nivel.machine.units.slips import in_kelvin, is_time_meant, slip
 from nivel.words.arguments import plain
 from nivel.words.wording import shown

@@ -7,8 +7,7 @@ from collections.abc import Callable, Iterator
 from nivel.machine.laws.table import Table
 from nivel.machine.units import tree
 from nivel.machine.units.expression import Expression
-from nivel.machine.units.functions import FUNCTIONS, inner_parts, is_truth
-from nivel.machine.units.interpolation import SMOOTH
+from nivel.machine.units.functions import FUNCTIONS, SMOOTH, inner_parts, is_truth
 
 PI = 3.141592653589793
 

@@ -17,7 +17,7 @@ from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.formula import Formula, LinearFunction, linear_function
-from nivel.machine.units.interpolation import SMOOTH
+from nivel.machine.units.functions import SMOOTH
 from nivel.machine.units.tree import TIME as TIME_SYMBOL
 from nivel.machine.units.tree import Node
 from nivel.system.laws.laws import law_address

@@ -19,8 +19,7 @@ from nivel.kernels.record.function import NEAR
 from nivel.lazy import dataclass
 from nivel.machine.units.expression import Expression
 from nivel.machine.units.formula import Formula
-from nivel.machine.units.functions import FUNCTIONS, is_truth
-from nivel.machine.units.interpolation import PERIODIC, differentiated, pieces
+from nivel.machine.units.functions import FUNCTIONS, PERIODIC, differentiated, is_truth, pieces
 from nivel.machine.units.sides import is_of_time_alone, jumps
 from nivel.machine.units.tree import TIME, Call, Lookup, Negative, Node, Number, Operation, Signal, Time, signals
 

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.assembly.assemble import Assembly, assemble
+from nivel.analysis.assembly.branches import both_assemblies
 from nivel.analysis.assembly.equations import MotionEquations, equations
 from nivel.analysis.assembly.implicit import ResidualOptions, constraint_index, with_residual
-from nivel.analysis.assembly.instant import both_assemblies
 from nivel.analysis.assembly.named_freedoms import touches_ground
 from nivel.analysis.assembly.penalties import bound_pivots, penalise, refuse_unknown_rows, soft_rows
 from nivel.analysis.assembly.redundancy import Redundancy, analyse, modal_rows

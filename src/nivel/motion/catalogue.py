@@ -53,10 +53,10 @@ PATHS: dict[tuple[str, str, str], PathFacts] = {
     ("absolute", "newton-euler", "euler-parameters"): _path("newton_euler", "absolute:arrange", "newton_euler"),
     ("absolute", "lagrange", "euler-parameters"): _path("lagrange", "absolute:arrange_parameters", "lagrange"),
     ("absolute", "lagrange", "euler-angles"): _path(
-        "lagrange_three", "three_coordinates:arrange_euler_angles", "lagrange_three"
+        "lagrange_three", "absolute:arrange_euler_angles", "lagrange_three"
     ),
     ("absolute", "lagrange", "rotation-vector"): _path(
-        "lagrange_three", "three_coordinates:arrange_rotation_vectors", "lagrange_three"
+        "lagrange_three", "absolute:arrange_rotation_vectors", "lagrange_three"
     ),
     ("relative", "newton-euler", "euler-parameters"): _path("relative", "relative:arrange", "relative"),
     ("independent", "newton-euler", "euler-parameters"): _path(

@@ -20,6 +20,7 @@ from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.units.expression import Expression
+from nivel.machine.units.interpolation import SMOOTH
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.methods import chooses
 from nivel.motion.catalogue import FORMULATIONS
@@ -224,7 +225,7 @@ def _jump_of(table: Table, settings: SimulationSettings) -> str:
         f"`integrator: {settings.integrator}` would lose the jump within a step: take `integrator: newmark`, hht or generalised-alpha, "
         f"whose steps end there and begin with the new speed"
     )
-    if first > 0.0 or table.ends_before(end):
+    if (first > 0.0 and table.interpolation not in SMOOTH) or table.ends_before(end):
         return (
             f"the table holds from {first:.6g} to {last:.6g} s and the run lasts from 0 to {end:.6g} s: beyond its ends the speed jumps to "
             f"zero, and {lost}; or add points, or run for {last:.6g} s"

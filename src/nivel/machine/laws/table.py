@@ -17,7 +17,7 @@ from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.functions import (
     FEWEST,
     INTERPOLATIONS,
-    PERIODIC,
+    SMOOTH,
     Interpolation,
     interpolated,
     misses_its_period,
@@ -77,8 +77,8 @@ class Table:
         return () if self.of == TIME else (self.of,)
 
     def ends_before(self, time: float) -> bool:
-        """Whether the last point lies before `time` [s], by more than round-off."""
-        return self.interpolation != PERIODIC and self.times[-1] < time * (1.0 - 1e-12)
+        """Whether the last point lies before `time` [s], by more than round-off, and what follows has another rate."""
+        return self.interpolation not in SMOOTH and self.times[-1] < time * (1.0 - 1e-12)
 
     def written(self) -> dict[str, Any]:
         """The table as a mapping of a machine file."""

@@ -135,3 +135,23 @@ def test_solids_that_begin_deep_in_each_other_are_no_pair(tmp_path):
     machine = nivel.import_model(tmp_path / "model.xml")
     assert [each.name for each in machine.record.forces] == ["one_ball_three_ball", "two_ball_three_ball"]
     assert any("deep inside each other: one_ball and two_ball" in each for each in machine.record.left_out)
+
+
+@pytest.mark.parametrize("reference", ["0.02 1", "0.01 0.2", "-10000 -20", "-10000 -180", "-10000 -250"])
+def test_what_rebounds_in_mujoco_is_left_out_by_name(reference, tmp_path):
+    """A ball that falls by 40 cm in MuJoCo, and its speed after the impact by the height to which it comes."""
+    path = tmp_path / "ball.xml"
+    path.write_text(
+        f'<mujoco><option timestep="1e-4"/><worldbody><geom name="floor" type="plane" size="1 1 1" solref="{reference}"/>'
+        f'<body name="ball" pos="0 0 .5"><freejoint/><geom name="skin" size=".1" solref="{reference}"/></body></worldbody></mujoco>',
+        encoding="utf-8",
+    )
+    model = mj.MjSpec.from_file(str(path)).compile()
+    data, heights = mj.MjData(model), []
+    while data.time < 0.9:
+        mj.mj_step(model, data)
+        heights.append(data.qpos[2])
+    lowest = int(np.argmin(heights[:4000]))
+    left = np.sqrt(max(max(heights[lowest:]) - 0.1, 0.0) / 0.4)
+    machine = nivel.import_model(path)
+    assert ("rebound of contacts: floor and skin" in machine.record.left_out) == (left > 0.05), left

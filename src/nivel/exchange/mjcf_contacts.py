@@ -22,7 +22,8 @@ GRAVITY: Final = 9.81  # m/s²: the load where the model has no weight
 CLIP: Final = 1e-4  # impedances are kept by so much from 0 and 1, as in MuJoCo
 DEEP: Final = 0.01  # of the size of the model: solids that begin deeper in each other are no parts that touch
 INSIDE: Final = "contacts of solids that begin deep inside each other"
-MARGINS, DIRECTIONS = "margins of contacts", "friction of contacts by direction"
+MARGINS, DIRECTIONS, REBOUND = "margins of contacts", "friction of contacts by direction", "rebound of contacts"
+LITTLE: Final = 0.9  # damping ratio below which more than 5 % of the speed of an impact is left in MuJoCo
 TURNS: Final = "friction of contacts against rolling has a limit of its own, that of MuJoCo shares one with sliding"
 
 
@@ -124,6 +125,10 @@ def _touch(m: Any, i: int, j: int, pair: int | None, names: tuple[str, str], mec
         mechanism.notes.leave(MARGINS, " and ".join(names), acts=True)
     if pair is not None and condim > 1 and friction[0] != friction[1]:
         mechanism.notes.leave(DIRECTIONS, " and ".join(names), acts=True)
+    # in an impact the solids vibrate with r'' = -d (b r' + k r), d the impedance of deep ones
+    (k, b), d = _law(ref, float(imp[1]), float(m.opt.timestep)), float(imp[1])
+    if b * np.sqrt(d) < 2.0 * LITTLE * np.sqrt(k):
+        mechanism.notes.leave(REBOUND, " and ".join(names), acts=True)
     w = sum(float(m.body_invweight0[m.geom_bodyid[g]][0]) for g in (i, j))
     gravity = float(np.linalg.norm(m.opt.gravity)) or GRAVITY
     weight = max(gravity, w * _load(m, (i, j)) * gravity)

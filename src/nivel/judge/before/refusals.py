@@ -20,7 +20,7 @@ from nivel.machine.laws.table import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.units.expression import Expression
-from nivel.machine.units.interpolation import SMOOTH
+from nivel.machine.units.functions import SMOOTH
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.methods import chooses
 from nivel.motion.catalogue import FORMULATIONS

@@ -14,7 +14,8 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.exchange.contacts import FEET
-from nivel.exchange.mechanism import Look, Mechanism, Solid, Touch
+from nivel.exchange.mechanism import Frame, Look, Mechanism, Solid, Touch
+from nivel.lazy import replace
 
 FREE: Final = 0  # mjtJoint
 BISECTIONS: Final = 60
@@ -24,6 +25,7 @@ DEEP: Final = 0.01  # of the size of the model: solids that begin deeper in each
 INSIDE: Final = "contacts of solids that begin deep inside each other"
 MARGINS, DIRECTIONS, REBOUND = "margins of contacts", "friction of contacts by direction", "rebound of contacts"
 LITTLE: Final = 0.9  # damping ratio below which more than 5 % of the speed of an impact is left in MuJoCo
+RAISED: Final = "planes are raised by the margins of their contacts"
 TURNS: Final = "friction of contacts against rolling has a limit of its own, that of MuJoCo shares one with sliding"
 
 
@@ -37,7 +39,7 @@ def read_contacts(
     mj.mj_collision(m, d)
     deep = set(map(frozenset, d.contact.geom[d.contact.dist < -DEEP * m.stat.extent].tolist()))
     solids: dict[int, Solid | None] = {}
-    skipped = 0
+    summed, skipped = _are_summed(mj), 0
     for first, second, given in _pairs(mj, m):
         moving = all(m.body_weldid[m.geom_bodyid[g]] for g in (first, second))
         if moving and kept == "floor":
@@ -56,12 +58,37 @@ def read_contacts(
         if frozenset((first, second)) in deep and not planes:  # out of a plane a model is raised
             mechanism.notes.leave(INSIDE, f"{one.name} and {two.name}", acts=True)
             continue
+        margins = m.geom_margin[[first, second]] if given is None else m.pair_margin[[given]]
+        margin = float(np.sum(margins) if summed else np.max(margins))
+        if margin and planes:
+            one, two = (_raised(each, margin) if each.look.kind == "plane" else each for each in (one, two))
+            mechanism.notes.change(RAISED, f"{one.name} and {two.name}")
+        elif margin:
+            mechanism.notes.leave(MARGINS, f"{one.name} and {two.name}", acts=True)
         mechanism.solids |= {one.name: one, two.name: two}
         mechanism.touches.append(_touch(m, first, second, given, (one.name, two.name), mechanism))
     if skipped:
         mechanism.notes.leave(
             f"contacts between bodies that move ({skipped} pairs); `--contacts all` has them", acts=True
         )
+
+
+def _are_summed(mj: Any) -> bool:
+    """Whether the margins of two geoms add up, as in later versions of MuJoCo; in earlier ones the larger one counts."""
+    ball = '<body><freejoint/><geom size="1" margin="1"/></body>'
+    m = mj.MjModel.from_xml_string(
+        f'<mujoco><worldbody><geom type="plane" size="1 1 1" margin="1"/>{ball}</worldbody></mujoco>'
+    )
+    d = mj.MjData(m)
+    mj.mj_forward(m, d)
+    return bool(d.contact.includemargin[0] > 1.5)
+
+
+def _raised(plane: Solid, margin: float) -> Solid:
+    """A plane where a geom that touches it from the distance `margin` [m] on begins to."""
+    place = plane.look.place @ Frame(origin=np.array([0.0, 0.0, margin]))
+    name = f"{plane.name}_{margin * 1e3:g}mm".replace(".", "_")
+    return replace(plane, name=name, look=replace(plane.look, place=place))
 
 
 def kind_of(mj: Any, m: Any, g: int) -> str:
@@ -120,9 +147,6 @@ def _touch(m: Any, i: int, j: int, pair: int | None, names: tuple[str, str], mec
     spin, roll = float(turning[0]) * (condim > 3), float(turning[1]) * (condim > 4)
     if roll:
         mechanism.notes.change(TURNS, " and ".join(names))
-    margins = (m.pair_margin[pair],) if pair is not None else (m.geom_margin[i], m.geom_margin[j])
-    if np.any(margins):
-        mechanism.notes.leave(MARGINS, " and ".join(names), acts=True)
     if pair is not None and condim > 1 and friction[0] != friction[1]:
         mechanism.notes.leave(DIRECTIONS, " and ".join(names), acts=True)
     # in an impact the solids vibrate with r'' = -d (b r' + k r), d the impedance of deep ones

@@ -716,8 +716,7 @@ class Machine(Model):
         """
         most = positions or nivel.machine.settings.values.POSITIONS
         settings = nivel.machine.settings.analyses.kinematics_settings(
-            self.record,
-            {"drive": coordinate, "end": 0.0, "positions": most, "coordinates": coordinates},
+            self.record, {"drive": coordinate, "end": 0.0, "positions": most, "coordinates": coordinates}
         )
         with self._assembled(listener):
             name = settings.drive
@@ -749,12 +748,7 @@ class Machine(Model):
             return nivel.analysis.kinematics.continuation.configuration_curve(self.record, name)
 
     @checked_arguments
-    def inverse(
-        self,
-        *,
-        listener: Listener | None = None,
-        **settings: Unpack[InverseSettingsDict],
-    ) -> Efforts:
+    def inverse(self, *, listener: Listener | None = None, **settings: Unpack[InverseSettingsDict]) -> Efforts:
         """Inverse dynamics: the efforts of actuators that make the machine follow a motion.
 
         settings : as the options of `nivel inverse`, with `limits` and `weights` by actuator; motion : a result, or its file. Of more
@@ -869,12 +863,7 @@ class Machine(Model):
         return self._mechanics.jacobian(point, q)
 
     @checked_arguments
-    def linearise(
-        self,
-        *,
-        listener: Listener | None = None,
-        **settings: Unpack[LineariseSettingsDict],
-    ) -> LinearModel:
+    def linearise(self, *, listener: Listener | None = None, **settings: Unpack[LineariseSettingsDict]) -> LinearModel:
         """The equations of motion made linear about a state: eigenvalues, modes, and A, B, C, D between inputs and outputs.
 
         settings : as the options of `nivel linearise`. about : `start`, `equilibrium` (at t = 0), or a time [s] to which it is run first.

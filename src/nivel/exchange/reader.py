@@ -88,12 +88,7 @@ def translated_machine(
 ) -> MachineRecord:
     """The machine that a file of another program describes; meshes are in it. Raises ModelError."""
     translation = read_model(
-        file,
-        base=base,
-        package_paths=package_paths,
-        contacts=contacts,
-        keyframe=keyframe,
-        include_paths=include_paths,
+        file, base=base, package_paths=package_paths, contacts=contacts, keyframe=keyframe, include_paths=include_paths
     )
     shapes = [each["shape"] for each in translation.data.get("markers", {}).values() if "shape" in each]
     for shape in [*_meshes(translation.data), *(each for each in shapes if each["type"] == "mesh")]:

@@ -32,10 +32,7 @@ def placed_body(body: Body, placing: Placement) -> Body:
     position, parameters = placement(body)
     if not placing.turns:
         return _moved_body(body, placing)
-    changes: dict[str, Any] = {
-        "position": placing.point(position),
-        "velocity": placing.direction(body.velocity),
-    }
+    changes: dict[str, Any] = {"position": placing.point(position), "velocity": placing.direction(body.velocity)}
     if body.shape is not None:
         changes["shape"] = _placed_shape(body.shape, placing)
     if body.looks:

@@ -225,9 +225,7 @@ class Machine(Model):
         what: str,
         force: bool,
     ) -> tuple[str, ...]:
-        nivel.files.target.check_target(
-            path, what, force=force, sources=[Path(self.origin.file)] if self.origin.file else []
-        )
+        nivel.files.target.check_target(path, what, force=force, sources=self.origin.files)
         with retold(self.origin.placed):
             text, meshes, notes = written(self.record, f"{path.stem}-meshes")
         for name, content in meshes.items():
@@ -930,8 +928,7 @@ class Machine(Model):
     def _refuse_target(self, out: str | PathLike[str] | None, force: bool) -> None:
         """Refuse a result file that cannot be written, before anything is compiled. Raises ModelError."""
         if out is not None:
-            sources = [Path(self.origin.file)] if self.origin.file else []
-            nivel.files.target.check_target(Path(fspath(out)), "result file", force=force, sources=sources)
+            nivel.files.target.check_target(Path(fspath(out)), "result file", force=force, sources=self.origin.files)
 
     @contextmanager
     def _compiled(self, entries: Sequence[Entry], listener: Listener | None) -> Iterator[float]:
@@ -1052,15 +1049,8 @@ def import_model(
     meshes are read. What is not translated is listed by `nivel import`.
     Raises ModelError with every fault of the model, each with its line.
     """
-    record = nivel.exchange.translated_machine(
-        fspath(path),
-        base=base,
-        package_paths=[Path(fspath(each)) for each in package_paths],
-        contacts=contacts,
-        keyframe=keyframe,
-        include_paths=[Path(fspath(each)) for each in include_paths],
-    )
-    return Machine.from_record(record)
+    given = {name: each for name, each in locals().items() if name != "path"}
+    return Machine.from_record(nivel.exchange.translated_machine(fspath(path), **given))
 
 
 @checked_arguments

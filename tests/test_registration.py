@@ -105,7 +105,7 @@ def test_components_are_found_by_their_words_without_being_imported():
         assert vars(import_module(COMPONENTS.homes[word]))[kind.record.__name__] is kind.record
     script = "import sys; from nivel.elements.circuits import COMPONENTS; COMPONENTS['orifice']; print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split()
-    assert "nivel.elements.circuits.orifices" in loaded
+    assert "nivel.elements.circuits.restrictions" in loaded
     assert not {"numba", "nivel.elements.circuits.pumps", "nivel.machine.machine_record"} & {*loaded}
 
 

@@ -101,9 +101,9 @@ import nivel.elements.circuits
 import nivel.elements.circuits.actuators
 import nivel.elements.circuits.chambers
 import nivel.elements.circuits.curves
+import nivel.elements.circuits.directional_valves
 import nivel.elements.circuits.fluids
-import nivel.elements.circuits.phase
-import nivel.elements.circuits.ways
+import nivel.elements.circuits.kind
 import nivel.elements.contacts
 import nivel.elements.contacts.heap
 import nivel.elements.contacts.height_field

@@ -7,8 +7,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from circuits import BAR, PA, between, circuit, history, steady
-from nivel.elements.circuits.masses import density_at
 from nivel.elements.circuits.nitrogen import gas_state
+from nivel.elements.circuits.volumes import density_at
 from nivel.errors import ModelError
 from simulating import slide, solid
 

@@ -5,7 +5,7 @@ import pytest
 from numba.core.errors import NumbaError
 
 from nivel.analysis.plan.compilation import all_entries
-from nivel.elements.circuits.phase import SLOPES
+from nivel.elements.circuits.kind import SLOPES
 from nivel.native.function import OPTIONS, leaf
 
 

@@ -125,7 +125,7 @@ def test_machine_code_depends_on_no_record():
             if module.startswith("nivel.elements."):
                 classes = [line for line in text.decode().splitlines() if line.startswith("class ")]
                 named = [line for line in classes if not line.endswith("(Row):")]
-                assert module in ("nivel.elements.rows", "nivel.elements.circuits.phase") or not named, (
+                assert module in ("nivel.elements.rows", "nivel.elements.circuits.kind") or not named, (
                     entry.name,
                     classes,
                 )

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import update_wrapper
-from inspect import get_annotations
+from inspect import get_annotations, signature
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, dataclass_transform
 
@@ -34,7 +34,8 @@ _MISSING: Any = object()
 
 
 def element(law: Callable[..., Any]) -> Family:
-    """Decorator: `law(machine, index, n, t)` of one element, of its columns and numbers, as the family of all of them."""
+    """Decorator: `law(machine, index, n, t)` of one element, of its columns and numbers, as the family of all of them; or
+    `law(machine, k, index, n, t)` of one that has more than these, such as a memory: k is its number."""
     of_one = stage(law)
 
     def of_all(machine, number, t):
@@ -43,9 +44,16 @@ def element(law: Callable[..., Any]) -> Family:
             of_one(machine, elements.columns[k], elements.number[k], t)
         return OK
 
-    update_wrapper(of_all, law)
-    vars(of_all).pop("__wrapped__")  # whose arguments Numba would take for its own
-    return family(of_all)
+    def of_all_numbered(machine, number, t):
+        elements = record_at(machine).elements
+        for k in range(elements.span[number, 0], elements.span[number, 1]):
+            of_one(machine, k, elements.columns[k], elements.number[k], t)
+        return OK
+
+    made = of_all_numbered if "k" in signature(law).parameters else of_all
+    update_wrapper(made, law)
+    vars(made).pop("__wrapped__")  # whose arguments Numba would take for its own
+    return family(made)
 
 
 class Filled(NamedTuple):

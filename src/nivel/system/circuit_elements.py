@@ -12,9 +12,9 @@ from nivel.elements.circuits.coolers import find_warm_pressures, warm
 from nivel.elements.circuits.density import FLUID, START, fluid_constants
 from nivel.elements.circuits.fluids import OIL, Fluid, Gas
 from nivel.elements.circuits.gases import find_gas_pressures
+from nivel.elements.circuits.kind import PHASES
 from nivel.elements.circuits.ledger import balance_ledger, begin_ledger
 from nivel.elements.circuits.nodes import Node, is_warm
-from nivel.elements.circuits.phase import PHASES
 from nivel.elements.circuits.restrictions import restrict_gas
 from nivel.elements.circuits.tanks import Tank
 from nivel.elements.circuits.volumes import GIVEN, ROOM_COLUMNS, SIGNAL, filled_room, find_pressures

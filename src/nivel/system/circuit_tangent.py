@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.elements.circuits import directional_valves, pistons, poppets, pump_control, rotary, spools, volumes
-from nivel.elements.circuits.phase import SLOPES
+from nivel.elements.circuits.kind import SLOPES
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.hook import FAMILIES, Family
 from nivel.kernels.record.record import NONE, Hooks, Record

@@ -16,6 +16,7 @@ import numpy as np
 from nivel.lazy import dataclass
 from nivel.looks.poses import rotation
 from nivel.machine.core.vectors import Array
+from nivel.view.acting import place_of
 from nivel.view.coordinate_places import coordinate_place
 from nivel.view.records import Arrow, Force, Joint, Triple
 from nivel.view.stage import Cast
@@ -165,7 +166,7 @@ def _load(
     cast: Cast, moments: Moments, record: dict[str, Any], magnitude: Array, power: Array, read: Read
 ) -> Iterator[Traced]:
     """A force or torque on one body. Its direction is known where it is constant, or has one component only."""
-    place = cast.place_of(record)
+    place = place_of(record, cast.record, cast.places, cast.bodies)
     if place is None:
         return
     body, point = place

@@ -23,12 +23,11 @@ from nivel.elements.circuits.chambers import Actuator, chamber_node
 from nivel.elements.circuits.density import ATMOSPHERE
 from nivel.elements.circuits.engines import Engine
 from nivel.elements.circuits.gases import GAS_CONSTANT, RATIO, SURROUNDINGS
-from nivel.elements.circuits.masses import mass_at
 from nivel.elements.circuits.nodes import Node
 from nivel.elements.circuits.pistons import ORIGIN, guide
 from nivel.elements.circuits.pumps import HydraulicMotor
 from nivel.elements.circuits.tanks import Reservoir
-from nivel.elements.circuits.volumes import VOLUME
+from nivel.elements.circuits.volumes import VOLUME, mass_at
 from nivel.errors import Fault, refuse
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import NONE

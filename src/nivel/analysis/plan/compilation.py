@@ -144,7 +144,7 @@ def preparation_entries(methods: Methods) -> list[Entry]:
     if integrator.needs == "accelerations" and path.dependent:
         modules.append(f"{path.dependent}:depend")
     circuits = _of_circuits(machine) if integrator.needs == "circuits" else []
-    slopes = [nivel.elements.circuits.phase.SLOPES.get(family) for family in circuits]
+    slopes = [nivel.elements.circuits.kind.SLOPES.get(family) for family in circuits]
     own = _motions(machine) if methods.coordinates == "relative" else []
     twins += [motion.twin for motion in own if twins]
     if methods.coordinates == "relative":
@@ -211,7 +211,7 @@ def all_entries() -> list[Entry]:
     residuals = [module for module in (*(path.residual for path in paths), *over_steps) if module]
     twins = [twin for module in dict.fromkeys((*residuals, *WITH_DERIVATIVES)) for twin in _twins(module)]
     twins += [family.twin for family in (*families, nivel.elements.beams.exact.hold)] + _twins(SENSOR)
-    slopes = [each for each in nivel.elements.circuits.phase.SLOPES.values() if each is not None]
+    slopes = [each for each in nivel.elements.circuits.kind.SLOPES.values() if each is not None]
     entries = [*_entries(module for module in modules if module), *(each.code for each in (*families, *slopes)), *twins]
     return [*dict.fromkeys(entries)]
 

@@ -29,9 +29,8 @@ from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated, VaryingTemperature
 from nivel.elements.circuits.density import AROUND, EXPANSION, HEAT_CAPACITY, START
 from nivel.elements.circuits.fluids import ROOM
-from nivel.elements.circuits.kind import ComponentKind
+from nivel.elements.circuits.kind import ComponentKind, Phase, called, slopes_of
 from nivel.elements.circuits.ledger import WARMTH, lose
-from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.restrictions import add_flow, rated, restrict
 from nivel.elements.circuits.smooth import magnitude_within
 from nivel.elements.circuits.symbol import Symbol, path

@@ -19,6 +19,7 @@ import numpy as np
 
 from nivel.elements.circuits.curves import hose_points
 from nivel.elements.circuits.density import VISCOSITY, density_and_modulus
+from nivel.elements.circuits.kind import Phase, called, slopes_of
 from nivel.elements.circuits.ledger import LOST, SUPPLIED, TAKEN_IN
 from nivel.elements.circuits.line_friction import (
     BENDS,
@@ -36,7 +37,6 @@ from nivel.elements.circuits.line_friction import (
     steady_loss,
 )
 from nivel.elements.circuits.nodes import TYPICAL
-from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import magnitude_within
 from nivel.elements.circuits.tangent import add_by_pressure
 from nivel.elements.rows import element

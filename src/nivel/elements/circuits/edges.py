@@ -21,8 +21,8 @@ from pydantic import BeforeValidator
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.curves import Curve, CurveOf, SomeCurve
 from nivel.elements.circuits.density import thickness
+from nivel.elements.circuits.kind import Phase, called, slopes_of
 from nivel.elements.circuits.ledger import lose_between, transfer
-from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import root_flow
 from nivel.elements.circuits.spools import SYMBOL
 from nivel.elements.circuits.tangent import add_by_pressure, add_flow_by_column, add_flow_by_pressure

@@ -14,8 +14,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.elements.circuits.density import thickness
+from nivel.elements.circuits.kind import Phase, called, slopes_of
 from nivel.elements.circuits.ledger import DELIVERED, SUPPLIED, lose_between, transfer
-from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.rotary import (
     COORDINATE,
     FLOW,

@@ -16,9 +16,8 @@ from pydantic import BeforeValidator
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component
 from nivel.elements.circuits.gases import REFERENCE
-from nivel.elements.circuits.kind import ComponentKind
+from nivel.elements.circuits.kind import ComponentKind, Phase, called
 from nivel.elements.circuits.ledger import lose, transfer
-from nivel.elements.circuits.phase import Phase, called
 from nivel.elements.circuits.restrictions import REFERENCE_ROOT, add_flow, carry_heat, restrict
 from nivel.elements.circuits.smooth import step
 from nivel.elements.circuits.symbol import Symbol, path

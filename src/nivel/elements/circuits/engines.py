@@ -14,8 +14,7 @@ from typing import ClassVar, Literal
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component
 from nivel.elements.circuits.curves import Speeds, as_many, rising
-from nivel.elements.circuits.kind import ComponentKind
-from nivel.elements.circuits.phase import Phase, called, slopes_of
+from nivel.elements.circuits.kind import ComponentKind, Phase, called, slopes_of
 from nivel.elements.circuits.pump_control import held_table
 from nivel.elements.circuits.pumps import Pump, Speed, Torque
 from nivel.elements.circuits.rotary import SETTING, Inertia

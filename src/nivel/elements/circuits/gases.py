@@ -12,8 +12,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.elements.circuits.fluids import ATMOSPHERE
+from nivel.elements.circuits.kind import Phase, called
 from nivel.elements.circuits.ledger import lose
-from nivel.elements.circuits.phase import Phase, called
 from nivel.elements.circuits.volumes import FIXED, GIVEN
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import NO_VOLUME, OK

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.elements.circuits.density import EXPANSION, HEAT_CAPACITY
-from nivel.elements.circuits.phase import Phase, called
+from nivel.elements.circuits.kind import Phase, called
 from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.status import OK

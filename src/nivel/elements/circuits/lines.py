@@ -1,4 +1,4 @@
-"""Flows of long lines between their segments, and of pipes with inertia: inertia of the fluid, and friction that depends on the frequency.
+"""Pipes, and long lines of segments: inertia of the fluid, and friction that depends on the frequency.
 
     l/A d(ṁ)/dt = p_a - p_b - Δp        Δp = g R ρ Q (1 + (Q/(g Q_c))⁶)^(1/8) + ζ ρ/(2 A²) Q |Q| + g U ρ Σ y_i
 
@@ -17,28 +17,33 @@ from nivel.elements.circuits.component import Component
 from nivel.elements.circuits.curves import LengthExpansion, hose_points
 from nivel.elements.circuits.delay_lines import add_delay, pass_waves
 from nivel.elements.circuits.density import DENSITY, MODULUS, VISCOSITY, thickening
-from nivel.elements.circuits.kind import ComponentKind
+from nivel.elements.circuits.kind import ComponentKind, Phase, called, slopes_of
 from nivel.elements.circuits.ledger import lose_between, transfer
 from nivel.elements.circuits.line_friction import (
     BENDS,
+    CRITICAL,
     CRITICAL_REYNOLDS,
     DECAY,
     KINETIC_DENSITY,
     RATES,
+    RESISTANCE,
     SLENDER,
     SMALL,
     UNSTEADY,
     WEIGHTS,
+    flow_ratio,
+    loss,
     slope_of_loss,
     steady_loss,
 )
 from nivel.elements.circuits.nodes import NO_ACCUMULATOR, growth_of_walls, volume_node
-from nivel.elements.circuits.phase import Phase, called, slopes_of
+from nivel.elements.circuits.restrictions import flowing
 from nivel.elements.circuits.smooth import magnitude_within
 from nivel.elements.circuits.symbol import pipe
-from nivel.elements.circuits.tangent import add_by_pressure, add_flow_by_column
+from nivel.elements.circuits.tangent import add_by_pressure, add_flow_by_column, add_flow_by_pressure
 from nivel.elements.rows import element
 from nivel.elements.states import StateFact
+from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.record import record_at
 from nivel.known import Node, Swept, SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
@@ -220,4 +225,74 @@ def _friction_terms(component: Line, fluid: tuple[float, ...]) -> int:
     return min(len(slower) + 1, len(RATES))
 
 
-KINDS = (ComponentKind(Line, add_line, (flow_in_lines, pass_waves), symbol=pipe, nodes=line_nodes),)
+class Pipe(Component):
+    """The loss of a round pipe, laminar and turbulent (Blasius), and the inertia of the fluid in it where that is wanted.
+
+    The volume of the fluid belongs to the nodes at its ends.
+    """
+
+    needs: ClassVar[tuple[str, ...]] = ("A", "B")
+    late: ClassVar[tuple[str, ...]] = ("flow",)
+    passes: ClassVar[tuple[tuple[str, str], ...]] = (("A", "B"), ("B", "A"))
+
+    type: Literal["pipe"] = "pipe"
+    diameter: ranges.Bore = Field()
+    length: ranges.PipeLength = Field()
+    inertia: Truth = Field(default=False, description="whether the flow has inertia: a state")
+
+
+@called(Phase.FLOWS, 10)
+@element
+def flow_in_pipes(machine, index, n, t):
+    """Flows through pipes without inertia."""
+    record = record_at(machine)
+    circuit = record.circuit
+    a, b = index[FROM], index[TO]
+    density, g = 0.5 * (circuit.density[a] + circuit.density[b]), thickening(circuit, a, b)
+    difference = circuit.pressure[a] - circuit.pressure[b]
+    critical = real(n[CRITICAL]) * real(g)
+    scale = real(n[RESISTANCE]) * real(g) * real(density) * critical
+    found = flow_ratio(real(difference) / scale) * critical
+    resistance = loss(n, g, density, found + 0.0 * difference)
+    flow = found + (difference - resistance) / (real(density) * slope_of_loss(n, real(g), found))
+    mass_flow = density * flow
+    lose_between(machine, a, b, mass_flow, transfer(machine, a, b, mass_flow))
+    record.outputs.value[index[OUTPUT]] = flow
+
+
+@slopes_of(flow_in_pipes)
+@element
+def add_slopes_of_pipes(machine, index, n, t):
+    """Slopes of flows through pipes, as secants."""
+    record = record_at(machine)
+    circuit, value = record.circuit, record.outputs.value
+    a, b = index[FROM], index[TO]
+    g = thickening(circuit, a, b)
+    sixth = (value[index[OUTPUT]] / (n[CRITICAL] * g)) ** 6
+    secant = n[RESISTANCE] * g * (1.0 + sixth) ** 0.125
+    add_flow_by_pressure(circuit, a, b, a, 1.0 / secant)
+    add_flow_by_pressure(circuit, a, b, b, -1.0 / secant)
+
+
+def add_pipe(builder: SystemBuilder, component: Pipe) -> None:
+    """Losses of a pipe, and its inertia."""
+    ends = component.ports["A"], component.ports["B"]
+    fluid = builder.circuit.fluids[flowing(builder, ends).fluid]
+    density, viscosity, d = fluid[4], fluid[5], component.diameter
+    area = 0.25 * math.pi * d**2
+    first = builder.outputs.add((f"hydraulics.{component.name}.flow", "m^3/s", f"flow of {component.name}"))
+    critical = CRITICAL_REYNOLDS * viscosity * area / d
+    resistance = 128.0 * viscosity * component.length / (math.pi * d**4)
+    columns = [first, builder.node(ends[0]), builder.node(ends[1])]
+    if not component.inertia:
+        builder.elements.add(flow_in_pipes, columns, [resistance, critical])
+        return
+    fact = StateFact(f"{component.name}.mass_flow", "kg/s", f"mass flow of {component.name}", 0.0, density * critical)
+    without_bends = [resistance, critical, area / component.length, density, 0.0, 0.0, 0.0, 1e-3 * critical]
+    builder.elements.add(flow_in_lines, [*columns, builder.own_state(fact), 0, 0], without_bends)
+
+
+KINDS = (
+    ComponentKind(Line, add_line, (flow_in_lines, pass_waves), symbol=pipe, nodes=line_nodes),
+    ComponentKind(Pipe, add_pipe, (flow_in_pipes, flow_in_lines), symbol=pipe),
+)

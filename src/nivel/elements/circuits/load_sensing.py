@@ -15,9 +15,8 @@ from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component
 from nivel.elements.circuits.directional_valves import DirectionalValve
 from nivel.elements.circuits.fluids import ATMOSPHERE
-from nivel.elements.circuits.kind import ComponentKind
+from nivel.elements.circuits.kind import ComponentKind, Phase, called, slopes_of
 from nivel.elements.circuits.nodes import RIGID, TYPICAL, Node, pressure_output
-from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.sections import Section
 from nivel.elements.circuits.smooth import clipped, maximum_within, ramp, step
 from nivel.elements.circuits.spool_valves import SpoolValve, closed_until

@@ -12,8 +12,8 @@ from typing import Annotated
 import numpy as np
 
 from nivel.elements.circuits.fluids import ATMOSPHERE
+from nivel.elements.circuits.kind import Phase, called, slopes_of
 from nivel.elements.circuits.ledger import DELIVERED
-from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import magnitude_within, ramp, step
 from nivel.elements.circuits.tangent import add_by_pressure, softness
 from nivel.elements.contacts.impact import impact, meet, part, slopes_of_impact

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.elements.circuits.phase import Phase, called, slopes_of
+from nivel.elements.circuits.kind import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import slope_of_step, step
 from nivel.elements.circuits.tangent import add_by_pressure
 from nivel.elements.rows import element

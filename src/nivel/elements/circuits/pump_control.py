@@ -19,7 +19,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from nivel.elements.circuits.curves import Pressures, as_many, rising
-from nivel.elements.circuits.phase import Phase, called, slopes_of
+from nivel.elements.circuits.kind import Phase, called, slopes_of
 from nivel.elements.circuits.rotary import END
 from nivel.elements.circuits.smooth import slope_of_step, step
 from nivel.elements.circuits.tangent import add_by_pressure

@@ -21,8 +21,8 @@ from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component
 from nivel.elements.circuits.curves import EfficiencyMap
 from nivel.elements.circuits.density import thickness
+from nivel.elements.circuits.kind import Phase, called, slopes_of
 from nivel.elements.circuits.ledger import DELIVERED, SUPPLIED, lose_between, transfer
-from nivel.elements.circuits.phase import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import clipped, magnitude_within, sign_within, slope_of_step, step
 from nivel.elements.circuits.tangent import add_by_pressure, add_flow_by_column, add_flow_by_pressure
 from nivel.elements.rows import element

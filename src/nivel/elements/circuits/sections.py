@@ -8,13 +8,12 @@ from typing import Annotated, Any, ClassVar, Literal
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated, VaryingPressure, problem_of_share
 from nivel.elements.circuits.composed import INNER_VOLUME, add_check_between, add_opened, sums
-from nivel.elements.circuits.directional_valves import add_spool, move
+from nivel.elements.circuits.directional_valves import add_spool, directional_valve, move, spool
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
 from nivel.elements.circuits.poppets import lift
 from nivel.elements.circuits.restrictions import BAND, EDGE, MIDDLE, add_flow, restrict
 from nivel.elements.circuits.symbol import Symbol, arrow, check_at, in_bar, moved, path
-from nivel.elements.circuits.ways import directional_valve, spool
 from nivel.known import SystemBuilder
 from nivel.lazy import replace
 from nivel.machine.core.checked import Problem, superfluous

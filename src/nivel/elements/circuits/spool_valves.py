@@ -11,10 +11,10 @@ from pydantic import AfterValidator, BeforeValidator
 from nivel.elements.circuits import ranges, spools
 from nivel.elements.circuits.component import Component, problem_of_share
 from nivel.elements.circuits.curves import Curve
+from nivel.elements.circuits.directional_valves import spool
 from nivel.elements.circuits.edges import MOST_EDGES, Edge, meter
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.symbol import Symbol
-from nivel.elements.circuits.ways import spool
 from nivel.kernels.record.record import NONE
 from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous

@@ -25,7 +25,7 @@ from typing import Annotated
 import numpy as np
 
 from nivel.elements.circuits.curves import CurveOf, SomeCurve
-from nivel.elements.circuits.phase import Phase, called, slopes_of
+from nivel.elements.circuits.kind import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import clipped, magnitude_within, sign_within, step
 from nivel.elements.rows import element
 from nivel.elements.states import StateFact

@@ -6,7 +6,7 @@ evaluation.
 x are the states of the circuit, s the coordinates on which its pistons and motors act with the efforts e. Restrictions have secants in
 place of tangents (see `nivel.elements.circuits.smooth`). Left out are what changes slowly against a step: densities in flows, areas of
 telescopes, cushions, commands that depend on the motion. What adds the slopes of a family stands beside it
-(`nivel.elements.circuits.phase.slopes_of`).
+(`nivel.elements.circuits.kind.slopes_of`).
 """
 
 from __future__ import annotations

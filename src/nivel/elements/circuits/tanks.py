@@ -14,7 +14,7 @@ from nivel.elements.circuits.component import Component, VaryingTemperature
 from nivel.elements.circuits.curves import VolumeExpansion, hose_points
 from nivel.elements.circuits.density import HEAT_CAPACITY, START
 from nivel.elements.circuits.fluids import ATMOSPHERE
-from nivel.elements.circuits.kind import ComponentKind
+from nivel.elements.circuits.kind import ComponentKind, Phase, called
 from nivel.elements.circuits.nodes import (
     NO_ACCUMULATOR,
     RIGID,
@@ -25,7 +25,6 @@ from nivel.elements.circuits.nodes import (
     pressure_output,
     volume_node,
 )
-from nivel.elements.circuits.phase import Phase, called
 from nivel.elements.circuits.symbol import Symbol, circle, path
 from nivel.elements.circuits.volumes import GIVEN
 from nivel.elements.states import Coupled

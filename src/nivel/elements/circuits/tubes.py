@@ -18,12 +18,11 @@ from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component
 from nivel.elements.circuits.density import DENSITY
 from nivel.elements.circuits.gases import REFERENCE
-from nivel.elements.circuits.kind import ComponentKind
+from nivel.elements.circuits.kind import ComponentKind, Phase, called
 from nivel.elements.circuits.ledger import lose, transfer
 from nivel.elements.circuits.line_friction import CRITICAL_REYNOLDS
 from nivel.elements.circuits.lines import MOST_SEGMENTS
 from nivel.elements.circuits.nodes import NO_ACCUMULATOR, volume_node
-from nivel.elements.circuits.phase import Phase, called
 from nivel.elements.circuits.restrictions import REFERENCE_ROOT, carry_heat
 from nivel.elements.circuits.smooth import magnitude_within
 from nivel.elements.circuits.symbol import pipe

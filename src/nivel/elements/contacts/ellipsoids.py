@@ -25,9 +25,6 @@ from nivel.elements.contacts.law import (
     is_far,
     mean_speed,
     pair,
-    seen,
-    times,
-    velocity_at,
 )
 from nivel.elements.contacts.rounds import (
     ends_of,
@@ -36,7 +33,8 @@ from nivel.elements.contacts.rounds import (
 from nivel.elements.contacts.shapes import ball_of_shape, part_of, polytope_of
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot
-from nivel.kernels.elements.patch import axis, minus, plus
+from nivel.kernels.algebra.vectors import axis, minus, opposite, plus, seen, seen_flat, times, turned_flat
+from nivel.kernels.forces.wrench import velocity_at
 from nivel.kernels.record.record import record_at
 from nivel.known import Contact
 from nivel.machine.bodies.shape import Capsule, Ellipsoid, Sphere
@@ -99,18 +97,14 @@ def from_ellipsoid(x, n):
 @leaf
 def along_edge(m, e, t, n):
     """(distance at m + t e, its rate with t)."""
-    d, p, q, r = from_ellipsoid((m[0] + t * e[0], m[1] + t * e[1], m[2] + t * e[2]), n)
+    d, p, q, r = from_ellipsoid(plus(m, times(t, e)), n)
     return d, p * e[0] + q * e[1] + r * e[2]
 
 
 @part
 def nearest_on_edge(m, e, n):
     """t of the point m + t e, |t| ≤ 1/2, with the least distance: that is convex, so its rate has one root at most (Illinois rule)."""
-    y, b, a = (
-        (real(m[0]), real(m[1]), real(m[2])),
-        (real(e[0]), real(e[1]), real(e[2])),
-        (real(n[0]), real(n[1]), real(n[2])),
-    )
+    y, b, a = reals(m), reals(e), reals(n)
     none = 0.0 * m[0]
     low, high = -0.5, 0.5
     f, g = along_edge(y, b, low, a)[1], along_edge(y, b, high, a)[1]
@@ -148,33 +142,13 @@ def nearest_on_edge(m, e, n):
 
 
 @leaf
-def into(B, d):
-    """Bᵀ d."""
-    return (
-        B[0] * d[0] + B[3] * d[1] + B[6] * d[2],
-        B[1] * d[0] + B[4] * d[1] + B[7] * d[2],
-        B[2] * d[0] + B[5] * d[1] + B[8] * d[2],
-    )
-
-
-@leaf
-def turned(B, d):
-    """B d."""
-    return (
-        B[0] * d[0] + B[1] * d[1] + B[2] * d[2],
-        B[3] * d[0] + B[4] * d[1] + B[5] * d[2],
-        B[6] * d[0] + B[7] * d[1] + B[8] * d[2],
-    )
-
-
-@leaf
 def support(B, a, n):
     """(h, x): h = √(nᵀ M n) and the point x = M n/h of an ellipsoid about the origin, farthest along the unit vector n; its axes are the
     columns of B."""
-    g = into(B, n)
+    g = seen_flat(B, n)
     g0, g1, g2 = a[0] * g[0], a[1] * g[1], a[2] * g[2]
     h = np.sqrt(g0 * g0 + g1 * g1 + g2 * g2)
-    return h, turned(B, (a[0] * g0 / h, a[1] * g1 / h, a[2] * g2 / h))
+    return h, turned_flat(B, (a[0] * g0 / h, a[1] * g1 / h, a[2] * g2 / h))
 
 
 @leaf
@@ -185,7 +159,7 @@ def in_face(polytope, y, at, faces):
         p = first + 4 * k
         if p == at:
             continue
-        over = real(y[0]) * real(polytope[p]) + real(y[1]) * real(polytope[p + 1]) + real(y[2]) * real(polytope[p + 2])
+        over = real(dot(y, polytope[p:]))
         size = np.abs(real(y[0])) + np.abs(real(y[1])) + np.abs(real(y[2])) + np.abs(real(polytope[p + 3]))
         if over > real(polytope[p + 3]) + EDGE * size:
             return False
@@ -200,7 +174,7 @@ def face_gap(polytope, p, c, B, a):
     h, x = support(B, a, n)
     above = dot(n, c) - polytope[p + 3]
     gap = above - h
-    return above, gap, (-n[0], -n[1], -n[2]), minus(minus(c, x), (gap * n[0], gap * n[1], gap * n[2]))
+    return above, gap, opposite(n), minus(minus(c, x), times(gap, n))
 
 
 @leaf
@@ -234,11 +208,11 @@ def from_polytope(polytope, c, B, a):
     first += 4 * faces
     least, e, s = np.inf, (o, o, o), reals(a)
     # without edges it is a point
-    m = into(B, minus((polytope[FIRST], polytope[FIRST + 1], polytope[FIRST + 2]), c))
+    m = seen_flat(B, minus((polytope[FIRST], polytope[FIRST + 1], polytope[FIRST + 2]), c))
     for k in range(edges):
         p = polytope[first + 6 * k : first + 6 * k + 6]
-        middle = into(B, minus((0.5 * (p[0] + p[3]), 0.5 * (p[1] + p[4]), 0.5 * (p[2] + p[5])), c))
-        along = into(B, (p[3] - p[0] + o, p[4] - p[1] + o, p[5] - p[2] + o))
+        middle = seen_flat(B, minus((0.5 * (p[0] + p[3]), 0.5 * (p[1] + p[4]), 0.5 * (p[2] + p[5])), c))
+        along = seen_flat(B, (p[3] - p[0] + o, p[4] - p[1] + o, p[5] - p[2] + o))
         y, b = reals(middle), reals(along)
         d, rate = along_edge(y, b, 0.0, s)
         # a convex function is nowhere below its tangent
@@ -247,16 +221,16 @@ def from_polytope(polytope, c, B, a):
             if d < least:
                 least, m, e = d, middle, along
     t = nearest_on_edge(m, e, a) if edges > 0 else o
-    y = m[0] + t * e[0], m[1] + t * e[1], m[2] + t * e[2]
+    y = plus(m, times(t, e))
     d, p, q, r = from_ellipsoid(y, a)
-    return d, turned(B, (p, q, r)), plus(c, turned(B, y)), 0.0
+    return d, turned_flat(B, (p, q, r)), plus(c, turned_flat(B, y)), 0.0
 
 
 @leaf
 def times_matrix(B, a, x):
     """M x, M = B diag(a²) Bᵀ."""
-    y = into(B, x)
-    return turned(B, (a[0] * a[0] * y[0], a[1] * a[1] * y[1], a[2] * a[2] * y[2]))
+    y = seen_flat(B, x)
+    return turned_flat(B, (a[0] * a[0] * y[0], a[1] * a[1] * y[1], a[2] * a[2] * y[2]))
 
 
 @leaf
@@ -279,12 +253,8 @@ def homothetic_direction(A, a, B, b, d):
         p1, q1, r1 = times_matrix(A, a, P), times_matrix(A, a, Q), times_matrix(A, a, R)
         p2, q2, r2 = times_matrix(B, b, P), times_matrix(B, b, Q), times_matrix(B, b, R)
         k = 1.0 - s
-        X = solve_symmetric(
-            (k * p1[0] + s * p2[0], k * p1[1] + s * p2[1], k * p1[2] + s * p2[2]),
-            (k * q1[0] + s * q2[0], k * q1[1] + s * q2[1], k * q1[2] + s * q2[2]),
-            (k * r1[0] + s * r2[0], k * r1[1] + s * r2[1], k * r1[2] + s * r2[2]),
-            d,
-        )
+        p, q, r = plus(times(k, p1), times(s, p2)), plus(times(k, q1), times(s, q2)), plus(times(k, r1), times(s, r2))
+        X = solve_symmetric(p, q, r, d)
         if k * k * dot(X, times_matrix(A, a, X)) - s * s * dot(X, times_matrix(B, b, X)) > 0.0:
             low = s
         else:
@@ -308,7 +278,7 @@ def gap_and_slope(A, a, B, b, d, n):
     """(gap nᵀd - h₁ - h₂, its gradient d - x₁ - x₂) with the unit normal n from the first ellipsoid to the second."""
     h, x = support(A, a, n)
     k, y = support(B, b, n)
-    return dot(n, d) - h - k, (d[0] - x[0] - y[0], d[1] - x[1] - y[1], d[2] - x[2] - y[2])
+    return dot(n, d) - h - k, minus(minus(d, x), y)
 
 
 @leaf
@@ -331,15 +301,15 @@ def turn_towards(A, a, B, b, d, n, G, gap):
         p, q, r = np.abs(gap) + p * p, 0.0, np.abs(gap) + p * p  # uphill
         k = p * r
     f, g = (r * x - q * y) / k, (p * y - q * x) / k
-    return f * t[0] + g * u[0], f * t[1] + g * u[1], f * t[2] + g * u[2]
+    return plus(times(f, t), times(g, u))
 
 
 @leaf
 def turned_by(n, v, share):
     """(n + share v), of unit length."""
-    x, y, z = n[0] + share * v[0], n[1] + share * v[1], n[2] + share * v[2]
-    size = np.sqrt(x * x + y * y + z * z)
-    return x / size, y / size, z / size
+    x = plus(n, times(share, v))
+    size = np.sqrt(dot(x, x))
+    return x[0] / size, x[1] / size, x[2] / size
 
 
 @part
@@ -371,7 +341,7 @@ def between_ellipsoids(A, a, B, b, d):
     uphill = gap_and_slope(A, a, B, b, d, m)[1]
     m = turned_by(m, turn_towards(A0, a0, B0, b0, d0, n, uphill, gap), 1.0)
     y = support(B, b, m)[1]
-    return gap_and_slope(A, a, B, b, d, m)[0], m, (-y[0], -y[1], -y[2])
+    return gap_and_slope(A, a, B, b, d, m)[0], m, opposite(y)
 
 
 # numbers of a pair with an ellipsoid, behind SWAPPED; SEMI_AXES: of it; OTHER_KIND: of the other one; OTHER_CORE: its radius around what
@@ -399,7 +369,7 @@ def speed_of_support(machine, k, n):
     p, normal, B, a = numbers[POINT:NORMAL], numbers[NORMAL:SPEED], markers.A[i], numbers[NUMBERS + SEMI_AXES :]
     if real(numbers[NUMBERS + ON_FACE]) != 1.0:
         return mean_speed(machine, k, 0)
-    d = -sign * normal[0], -sign * normal[1], -sign * normal[2]
+    d = times(-sign, normal)
     turning = cross(minus(bodies.omega[markers.body[j]], bodies.omega[markers.body[i]]), d)
     square, along = 0.0 * d[0], 0.0 * d[0]
     for b in range(3):
@@ -410,7 +380,7 @@ def speed_of_support(machine, k, n):
     v = velocity_at(bodies, markers.body[i], p)
     for b in range(3):
         share = a[b] * a[b] * (dot(axis(B, b), turning) - dot(axis(B, b), d) * along / square) / h
-        v = plus(v, (share * B[0, b], share * B[1, b], share * B[2, b]))
+        v = plus(v, times(share, axis(B, b)))
     return v
 
 
@@ -425,7 +395,7 @@ def apply_to_ellipsoids(machine, k, n):
     if np.int64(real(more[OTHER_KIND])) == ELLIPSOID:
         o = 0.0 * c[0]
         upright = o + 1.0, o, o, o, o + 1.0, o, o, o, o + 1.0
-        d, g, y = between_ellipsoids(B, a, upright, shape, (-c[0], -c[1], -c[2]))
+        d, g, y = between_ellipsoids(B, a, upright, shape, opposite(c))
         on_face = 0.0
     else:
         d, g, y, on_face = from_polytope(shape, c, B, a)

@@ -25,13 +25,12 @@ from nivel.elements.contacts.law import (
     is_apart,
     is_far,
     pair,
-    times,
-    velocity_at,
 )
 from nivel.elements.contacts.shapes import ball_of_shape, corners_of
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot
-from nivel.kernels.elements.patch import axis, minus, plus
+from nivel.kernels.algebra.vectors import axis, minus, plus, put, times, turned
+from nivel.kernels.forces.wrench import velocity_at
 from nivel.kernels.record.record import record_at
 from nivel.known import Contact
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere
@@ -90,8 +89,7 @@ def shape_point(kind, A, r, size, n, normal, p):
         x, y, z = o + size[3 * n], o + size[3 * n + 1], o + size[3 * n + 2]
     elif kind == CAPSULE:
         z = o + size[1] * end_sign(n, 2)
-    for a in range(3):
-        p[a] = r[a] + A[a, 0] * x + A[a, 1] * y + A[a, 2] * z
+    put(p, 0, plus(r, turned(A, (x, y, z))))
 
 
 @stage
@@ -112,8 +110,7 @@ def speed_of_rim_point(machine, i, j, p, normal):
     # the axis and the direction to the lowest point of a rim turn with this velocity
     turning, t = cross(minus(w, W), a), cross(a, normal)
     spin = -sigma / (1.0 - sigma * sigma) * dot(t, turning)
-    across = cross(a, turning)
-    v = plus(W, (across[0] + spin * a[0], across[1] + spin * a[1], across[2] + spin * a[2]))
+    v = plus(W, plus(cross(a, turning), times(spin, a)))
     return plus(markers.rdot[i], cross(v, minus(p, markers.r[i])))
 
 
@@ -173,13 +170,11 @@ def apply(machine, k, n):
     markers, columns, numbers = record.markers, record.elements.columns[k], record.elements.number[k]
     i, j, kind = columns[MARKER], columns[OTHER], columns[KIND]
     p, normal, size = numbers[POINT:NORMAL], numbers[NORMAL:SPEED], numbers[NUMBERS:]
-    for a in range(3):
-        normal[a] = markers.A[j, a, 2]
+    put(normal, 0, axis(markers.A[j], 2))
     shape_point(kind, markers.A[i], markers.r[i], size, n, normal, p)
     height, radius = dot(minus(p, markers.r[j]), normal), ball_radius(kind, size)
     if kind in (SPHERE, CAPSULE):
-        for a in range(3):
-            p[a] -= height * normal[a]
+        put(p, 0, minus(p, times(height, normal)))
     return radius - height
 
 
@@ -191,9 +186,9 @@ def find_point_of_spheres(r, o, numbers, radius, other):
     depth = radius + other - distance
     if real(distance) == 0.0:
         d, distance = (d[0], d[1], d[2] + 1.0), distance + 1.0  # any direction will do
-    for a in range(3):
-        numbers[NORMAL + a] = d[a] / distance
-        numbers[POINT + a] = o[a] + (other - 0.5 * depth) * numbers[NORMAL + a]
+    normal = d[0] / distance, d[1] / distance, d[2] / distance
+    put(numbers, NORMAL, normal)
+    put(numbers, POINT, plus(o, times(other - 0.5 * depth, normal)))
     return depth
 
 

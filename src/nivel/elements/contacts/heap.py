@@ -30,11 +30,10 @@ from nivel.elements.contacts.law import (
 from nivel.elements.forces.friction import add_friction_work, rub_off
 from nivel.elements.kind import Kind
 from nivel.elements.output import add_outputs
+from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import dot
-from nivel.kernels.core.status import OK
-from nivel.kernels.elements.patch import axis, minus
-from nivel.kernels.record.hook import family
+from nivel.kernels.algebra.vectors import axis, minus, put, times
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import MachineRecord, SystemBuilder
 from nivel.machine.bodies.shape import Sphere
@@ -130,9 +129,9 @@ def touch_plane(machine, k, place, a, j, height, t):
     record = record_at(machine)
     numbers, markers = record.elements.number[k], record.markers
     i = np.int64(record.elements.columns[k, FIRST + a])
-    for c in range(3):
-        numbers[NORMAL + c] = markers.A[j, c, 2]
-        numbers[POINT + c] = markers.r[i, c] - height * markers.A[j, c, 2]
+    normal = axis(markers.A[j], 2)
+    put(numbers, NORMAL, normal)
+    put(numbers, POINT, minus(markers.r[i], times(height, normal)))
     push_apart(machine, k, place, i, j, numbers[RADII + a] - height, t)
 
 
@@ -154,8 +153,8 @@ def look_at_pair(machine, k, a, b, r, deepest, t):
     columns, numbers = elements.columns[k], elements.number[k]
     o, reach = record.markers.r[np.int64(columns[FIRST + b])], numbers[RADII + a] + numbers[RADII + b]
     place = (a + 1) * np.int64(columns[PLANES]) + a * (a - 1) // 2 + b
-    d0, d1, d2 = r[0] - o[0], r[1] - o[1], r[2] - o[2]
-    squared = d0 * d0 + d1 * d1 + d2 * d2
+    d = minus(r, o)
+    squared = dot(d, d)
     # a gap that is above that of the nearest pair needs no root
     near = reach - real(deepest)
     if near > 0.0 and real(squared) < near * near:
@@ -185,46 +184,43 @@ def look_around(machine, k, a, r, deepest, t):
     return deepest
 
 
-@family
-def apply(machine, number, t):
-    """All pairs of all elements."""
+@element
+def apply(machine, k, columns, numbers, t):
+    """All pairs of an element."""
     record = record_at(machine)
     elements, markers, followed, out = record.elements, record.markers, record.watched.followed[0], record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        columns, numbers = elements.columns[k], elements.number[k]
-        count, planes, first = np.int64(columns[SPHERES]), np.int64(columns[PLANES]), np.int64(columns[OUTPUT])
-        nothing = 0.0 * numbers[STIFFNESS]
-        begin_contact(machine, k, t)
-        out[first + TOUCHING] = nothing
-        # where surfaces are followed each has its own distance
-        uses_cells = real(numbers[TABLE_SIZE]) > 0.0 and followed == 0
-        deepest = nothing - np.inf
-        if real(numbers[TABLE_SIZE]) > 0.0:
-            forget_touches(machine, k)
+    count, planes, first = np.int64(columns[SPHERES]), np.int64(columns[PLANES]), np.int64(columns[OUTPUT])
+    nothing = 0.0 * numbers[STIFFNESS]
+    begin_contact(machine, k, t)
+    out[first + TOUCHING] = nothing
+    # where surfaces are followed each has its own distance
+    uses_cells = real(numbers[TABLE_SIZE]) > 0.0 and followed == 0
+    deepest = nothing - np.inf
+    if real(numbers[TABLE_SIZE]) > 0.0:
+        forget_touches(machine, k)
+    if uses_cells:
+        fill_cells(machine, k)
+        # what is farther than the cells around is apart by that
+        deepest = nothing - real(numbers[GAP])
+    for a in range(count):
+        r = markers.r[np.int64(columns[FIRST + a])]
+        for b in range(planes):
+            j = np.int64(columns[FIRST + count + b])
+            height = dot(minus(r, markers.r[j]), axis(markers.A[j], 2))
+            depth, place = numbers[RADII + a] - height, a * planes + a * (a - 1) // 2 + b
+            if real(depth) > real(deepest):
+                deepest = depth
+            if followed == 1 or real(depth) > 0.0 or elements.depth[k, place] > 0.0:
+                touch_plane(machine, k, place, a, j, height, t)
         if uses_cells:
-            fill_cells(machine, k)
-            # what is farther than the cells around is apart by that
-            deepest = nothing - real(numbers[GAP])
-        for a in range(count):
-            r = markers.r[np.int64(columns[FIRST + a])]
-            for b in range(planes):
-                j = np.int64(columns[FIRST + count + b])
-                height = dot(minus(r, markers.r[j]), axis(markers.A[j], 2))
-                depth, place = numbers[RADII + a] - height, a * planes + a * (a - 1) // 2 + b
-                if real(depth) > real(deepest):
-                    deepest = depth
-                if followed == 1 or real(depth) > 0.0 or elements.depth[k, place] > 0.0:
-                    touch_plane(machine, k, place, a, j, height, t)
-            if uses_cells:
-                deepest = look_around(machine, k, a, r, deepest, t)
-            else:
-                for b in range(a):
-                    deepest = look_at_pair(machine, k, a, b, r, deepest, t)
-        force, rub = numbers[SUMS], numbers[RUBBING]
-        out[first], out[first + 1] = np.sqrt(force * force + rub * rub), numbers[POWER]
-        out[first + DEPTH], out[first + FORCE], out[first + RUB] = deepest, force, rub
-        out[first + LOST_POWER] = numbers[LOST]
-    return OK
+            deepest = look_around(machine, k, a, r, deepest, t)
+        else:
+            for b in range(a):
+                deepest = look_at_pair(machine, k, a, b, r, deepest, t)
+    force, rub = numbers[SUMS], numbers[RUBBING]
+    out[first], out[first + 1] = np.sqrt(force * force + rub * rub), numbers[POWER]
+    out[first + DEPTH], out[first + FORCE], out[first + RUB] = deepest, force, rub
+    out[first + LOST_POWER] = numbers[LOST]
 
 
 # From so many spheres on pairs are found by cells, which are so many times as large as the largest sphere.

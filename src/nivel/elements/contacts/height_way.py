@@ -26,15 +26,15 @@ from nivel.elements.contacts.heights import (
     mesh_of,
     meshes,
 )
-from nivel.elements.contacts.law import COUNT, DEEPEST, MARKER, NORMAL, OTHER, POINT, RADIUS, seen
+from nivel.elements.contacts.law import COUNT, DEEPEST, MARKER, NORMAL, OTHER, POINT, RADIUS
 from nivel.kernels.algebra.analytic import real
-from nivel.kernels.algebra.spatial import cross
+from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.algebra.vectors import axis, minus, plus, put, seen, times
 from nivel.kernels.core.status import OK
-from nivel.kernels.elements.patch import axis, minus
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.kernels.signals.watch import AHEAD, ARRIVE, KEEP, LOOK, read_watched
-from nivel.native.function import stage
+from nivel.native.function import leaf, stage
 
 # what is kept of an accepted state behind the points in the memory of an element: pose and twist of the shape in axes of the ground (place,
 # axes, velocity, angular velocity), time, 1
@@ -51,24 +51,31 @@ def write_pose(machine, k, out, first):
     d = minus(markers.r[i], markers.r[j])
     v = minus(minus(markers.rdot[i], markers.rdot[j]), cross(W, d))
     turning = seen(B, minus(bodies.omega[markers.body[i]], W))
-    d, v = seen(B, d), seen(B, v)
+    put(out, first + PLACE, seen(B, d))
+    put(out, first + SPEED, seen(B, v))
+    put(out, first + SPIN, turning)
     for a in range(3):
-        out[first + PLACE + a], out[first + SPEED + a], out[first + SPIN + a] = d[a], v[a], turning[a]
         column = seen(B, axis(markers.A[i], a))
         for b in range(3):
             out[first + AXES + 3 * b + a] = column[b]
 
 
+@leaf
+def values_at(x, first, step=1):
+    """The values of three numbers, `step` places apart."""
+    return real(x[first]), real(x[first + step]), real(x[first + 2 * step])
+
+
 @stage
 def predict(out, end, memory, first, h):
     """The pose at the end of a step of length h with the twist kept, into out[end:]."""
-    w = real(memory[first + SPIN]), real(memory[first + SPIN + 1]), real(memory[first + SPIN + 2])
-    rate = np.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
+    w = values_at(memory, first + SPIN)
+    rate = np.sqrt(dot(w, w))
     s, c = (np.sin(rate * h) / rate, (1.0 - np.cos(rate * h)) / (rate * rate)) if rate > 0.0 else (h, 0.5 * h * h)
     for a in range(3):
         out[end + PLACE + a] = memory[first + PLACE + a] + h * memory[first + SPEED + a]
         out[end + SPEED + a], out[end + SPIN + a] = memory[first + SPEED + a], memory[first + SPIN + a]
-        x = real(memory[first + AXES + a]), real(memory[first + AXES + 3 + a]), real(memory[first + AXES + 6 + a])
+        x = values_at(memory, first + AXES + a, 3)
         y = cross(w, x)
         z = cross(w, y)
         for b in range(3):
@@ -85,21 +92,14 @@ def set_pose(machine, k, theta, h):
     one = theta * theta * (3.0 - 2.0 * theta)
     low, high = h * theta * (1.0 - theta) * (1.0 - theta), -h * theta * theta * (1.0 - theta)
     B, o = markers.A[j], markers.r[j]
-    w = real(memory[first + SPIN]), real(memory[first + SPIN + 1]), real(memory[first + SPIN + 2])
-    W = real(n[end + SPIN]), real(n[end + SPIN + 1]), real(n[end + SPIN + 2])
+    w, W = values_at(memory, first + SPIN), values_at(n, end + SPIN)
     for c in range(4):
         at, step = (PLACE, 1) if c == 3 else (AXES + c, 3)
-        x = real(memory[first + at]), real(memory[first + at + step]), real(memory[first + at + 2 * step])
-        y = real(n[end + at]), real(n[end + at + step]), real(n[end + at + 2 * step])
+        x, y = values_at(memory, first + at, step), values_at(n, end + at, step)
         u, v = cross(w, x), cross(W, y)
         if c == 3:
-            u = real(memory[first + SPEED]), real(memory[first + SPEED + 1]), real(memory[first + SPEED + 2])
-            v = real(n[end + SPEED]), real(n[end + SPEED + 1]), real(n[end + SPEED + 2])
-        p = (
-            x[0] + one * (y[0] - x[0]) + low * u[0] + high * v[0],
-            x[1] + one * (y[1] - x[1]) + low * u[1] + high * v[1],
-            x[2] + one * (y[2] - x[2]) + low * u[2] + high * v[2],
-        )
+            u, v = values_at(memory, first + SPEED), values_at(n, end + SPEED)
+        p = plus(plus(plus(x, times(one, minus(y, x))), times(low, u)), times(high, v))
         for a in range(3):
             q = real(B[a, 0]) * p[0] + real(B[a, 1]) * p[1] + real(B[a, 2]) * p[2]
             if c == 3:
@@ -120,9 +120,8 @@ def overlap_at(machine, k, n, theta, h):
     if ball > 0.0:
         # the point of a ball was put on the ground
         m = seen(markers.A[columns[OTHER]], (numbers[NORMAL], numbers[NORMAL + 1], numbers[NORMAL + 2]))
-        away = ball - depth
-        return depth, (real(p[0] + away * m[0]), real(p[1] + away * m[1]), real(p[2] + away * m[2]))
-    return depth, (real(p[0]), real(p[1]), real(p[2]))
+        p = plus(p, times(ball - depth, m))
+    return depth, values_at(p, 0)
 
 
 @stage
@@ -141,11 +140,7 @@ def put_back(machine, k, own):
     i, n = record.elements.columns[k, MARKER], record.elements.number[k]
     for a in range(3):
         record.markers.r[i, a], n[NORMAL + a] = own[0][a], own[4][a]
-        record.markers.A[i, a, 0], record.markers.A[i, a, 1], record.markers.A[i, a, 2] = (
-            own[1][a],
-            own[2][a],
-            own[3][a],
-        )
+        put(record.markers.A[i, a], 0, (own[1][a], own[2][a], own[3][a]))
 
 
 # the share that is never reached
@@ -170,10 +165,9 @@ def is_plane(machine, k):
 def meshes_within(machine, k, out, at, h):
     """A bound of the meshes that points of element k pass with the twist of the pose in out[at:] in the time h."""
     n = record_at(machine).elements.number[k]
-    x, y, z = real(out[at + SPEED]), real(out[at + SPEED + 1]), real(out[at + SPEED + 2])
-    u, v, w = real(out[at + SPIN]), real(out[at + SPIN + 1]), real(out[at + SPIN + 2])
+    v, w = values_at(out, at + SPEED), values_at(out, at + SPIN)
     arm = real(n[RADIUS]) - ball_of(machine, k)
-    speed = np.sqrt(x * x + y * y + z * z) + arm * np.sqrt(u * u + v * v + w * w)
+    speed = np.sqrt(dot(v, v)) + arm * np.sqrt(dot(w, w))
     return h * speed / mesh_of(n[GROUND:])
 
 
@@ -207,13 +201,13 @@ def way_of(machine, k, n, h):
     _, p = overlap_at(machine, k, n, 0.0, h)
     _, q = overlap_at(machine, k, n, 0.5, h)
     _, r = overlap_at(machine, k, n, 1.0, h)
-    x, y, z = q[0] - 0.5 * (p[0] + r[0]), q[1] - 0.5 * (p[1] + r[1]), q[2] - 0.5 * (p[2] + r[2])
+    off = minus(q, times(0.5, plus(p, r)))
     way = meshes(ground, p, q) + meshes(ground, q, r)
     if not 1.0 < way < np.inf:
         return 0, 0, 0.0
     count = np.int64(np.ceil(IN_A_MESH * way))
     pieces = (count + IN_A_PIECE - 1) // IN_A_PIECE
-    return count, pieces, 4.0 * np.sqrt(x * x + y * y + z * z) / (pieces * pieces)
+    return count, pieces, 4.0 * np.sqrt(dot(off, off)) / (pieces * pieces)
 
 
 @stage

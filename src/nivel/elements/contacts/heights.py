@@ -41,14 +41,12 @@ from nivel.elements.contacts.law import (
     note_speed,
     press,
     report_contact,
-    seen,
-    times,
 )
 from nivel.elements.contacts.shapes import ball_of_shape, corners_of_parts
+from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
-from nivel.kernels.core.status import OK
-from nivel.kernels.elements.patch import axis, minus, plus
-from nivel.kernels.record.hook import family
+from nivel.kernels.algebra.spatial import dot
+from nivel.kernels.algebra.vectors import axis, minus, plus, put, seen, times, turned
 from nivel.kernels.record.record import record_at
 from nivel.machine.bodies.touching import Touching
 from nivel.native.function import leaf, part, stage
@@ -294,37 +292,29 @@ def find_point_over_ground(machine, k, n):
     shape_point(kind, A, r, size, n, below, p)
     distance, n0, n1, n2, _, _, _ = from_heights(ground, seen(B, minus(p, o)))
     radius = ball_radius(kind, size)
-    for a in range(3):
-        normal[a] = B[a, 0] * n0 + B[a, 1] * n1 + B[a, 2] * n2
+    put(normal, 0, turned(B, (n0, n1, n2)))
     if real(radius) > 0.0:
         # the force acts on the ground
-        for a in range(3):
-            p[a] -= distance * normal[a]
+        put(p, 0, minus(p, times(distance, normal)))
     return radius - distance
 
 
-@family
-def apply_over_heights(machine, number, t):
-    """All contacts with ground whose height varies."""
-    elements = record_at(machine).elements
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        numbers = elements.number[k]
-        begin_contact(machine, k, t)
-        if not is_above(machine, k, numbers[GROUND + HIGHEST]):
-            o = 0.0 * numbers[SUMS]
-            total = o, o, o
-            for n in range(elements.columns[k, COUNT]):
-                depth = find_point_over_ground(machine, k, n)
-                if needs_speed(machine, k, n, depth):
-                    note_speed(machine, k, mean_speed(machine, k, n))
-                total = plus(total, times(press(machine, k, n, depth, t), numbers[NORMAL:SPEED]))
-            squared = total[0] * total[0] + total[1] * total[1] + total[2] * total[2]
-            if real(squared) > 0.0:
-                size = np.sqrt(squared)
-                for a in range(3):
-                    numbers[NORMAL + a] = total[a] / size
-        report_contact(machine, k)
-    return OK
+@element
+def apply_over_heights(machine, k, columns, numbers, t):
+    """A contact with ground whose height varies."""
+    begin_contact(machine, k, t)
+    if not is_above(machine, k, numbers[GROUND + HIGHEST]):
+        o = 0.0 * numbers[SUMS]
+        total = o, o, o
+        for n in range(columns[COUNT]):
+            depth = find_point_over_ground(machine, k, n)
+            if needs_speed(machine, k, n, depth):
+                note_speed(machine, k, mean_speed(machine, k, n))
+            total = plus(total, times(press(machine, k, n, depth, t), numbers[NORMAL:SPEED]))
+        squared = dot(total, total)
+        if real(squared) > 0.0:
+            put(numbers, NORMAL, times(1.0 / np.sqrt(squared), total))
+    report_contact(machine, k)
 
 
 def points_over_heights(force: Contact, bodies: Sequence[Touching]) -> Points:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.elements.contacts.law import SURFACE_NUMBERS, find_surface, place_patch, velocity_at
+from nivel.elements.contacts.law import SURFACE_NUMBERS, find_surface, mean_of, place_patch
 from nivel.elements.contacts.pressure_cells import (
     along_plane,
     bound_cap,
@@ -24,15 +24,15 @@ from nivel.elements.contacts.pressure_cells import (
     whole,
 )
 from nivel.elements.contacts.shapes import Hull
+from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import maximum, minimum, real, tanh
 from nivel.kernels.algebra.spatial import cross, dot
-from nivel.kernels.core.status import OK
-from nivel.kernels.elements.patch import leave_patch, middle_of, plus
+from nivel.kernels.algebra.vectors import axis, minus, opposite, plus, put, seen, times, turned, turned_flat
+from nivel.kernels.elements.patch import leave_patch, middle_of
 from nivel.kernels.elements.touch import DEPTH, FORCE, RATE, leave_touch, write_touch
 from nivel.kernels.elements.touch import RUB as FRICTION_FORCE
 from nivel.kernels.elements.touch import SLIP as SLIP_SPEED
-from nivel.kernels.forces.wrench import add_force_at, add_torque
-from nivel.kernels.record.hook import family
+from nivel.kernels.forces.wrench import add_force_at, add_torque, velocity_at
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import Contact
 from nivel.native.function import leaf, stage
@@ -72,40 +72,25 @@ def places(columns):
 
 
 @leaf
-def turn(A, x, y, z):
-    """A (x, y, z), A (9,) by rows."""
-    return (
-        A[0] * x + A[1] * y + A[2] * z,
-        A[3] * x + A[4] * y + A[5] * z,
-        A[6] * x + A[7] * y + A[8] * z,
-    )
-
-
-@leaf
 def place_second(columns, n):
     """Corners and faces of the second hull in the axes of the first."""
     _, faces, corners, others, seen, _, _ = places(columns)
-    A = n[TURN:SHIFT]
+    A, shift = n[TURN:SHIFT], n[SHIFT:SPEED]
     for k in range(columns[OTHER_CORNERS]):
-        p, q = corners + 3 * k, seen + 3 * k
-        x, y, z = turn(A, n[p], n[p + 1], n[p + 2])
-        n[q], n[q + 1], n[q + 2] = n[SHIFT] + x, n[SHIFT + 1] + y, n[SHIFT + 2] + z
+        put(n, seen + 3 * k, plus(shift, turned_flat(A, n[corners + 3 * k :])))
     apart = APART * (n[RADIUS] + n[OTHER_RADIUS])
     for k in range(columns[OTHER_FACES]):
         p, q = others + 4 * k, faces + 4 * (np.int64(columns[FACES]) + k)
-        x, y, z = turn(A, n[p], n[p + 1], n[p + 2])
+        x, y, z = turned_flat(A, n[p:])
         n[q], n[q + 1], n[q + 2] = x, y, z
         n[q + 3] = n[p + 3] + apart + x * n[SHIFT] + y * n[SHIFT + 1] + z * n[SHIFT + 2]
 
 
 @leaf
-def velocity(n, x, y, z):
-    """Velocity relative to the first hull of the point of the second one at (x, y, z)."""
-    return (
-        n[SPEED] + n[SPIN + 1] * z - n[SPIN + 2] * y,
-        n[SPEED + 1] + n[SPIN + 2] * x - n[SPIN] * z,
-        n[SPEED + 2] + n[SPIN] * y - n[SPIN + 1] * x,
-    )
+def velocity(n, p):
+    """Velocity relative to the first hull of the point of the second one at p."""
+    v, w = n[SPEED:SPIN], n[SPIN:PUSH]
+    return v[0] + w[1] * p[2] - w[2] * p[1], v[1] + w[2] * p[0] - w[0] * p[2], v[2] + w[0] * p[1] - w[1] * p[0]
 
 
 @leaf
@@ -123,8 +108,7 @@ def least_overlap(columns, n):
         )
         if real(overlap) < real(least):
             least, face, corner, own = overlap, faces + 4 * k, at, of_first
-    v0, v1, v2 = velocity(n, n[corner], n[corner + 1], n[corner + 2])
-    rate = n[face] * v0 + n[face + 1] * v1 + n[face + 2] * v2
+    rate = dot(n[face:], velocity(n, n[corner:]))
     return least, -rate if own else rate, face
 
 
@@ -156,30 +140,25 @@ def see(machine, k, t):
     record = record_at(machine)
     markers, bodies, n, columns = record.markers, record.bodies, record.elements.number[k], record.elements.columns[k]
     i, j = record.elements.columns[k, MARKER], record.elements.columns[k, OTHER]
-    A, B, r = markers.A[i], markers.A[j], markers.r[i]
-    a0, a1, a2 = velocity_at(bodies, markers.body[i], r)
-    b0, b1, b2 = velocity_at(bodies, markers.body[j], r)
-    v0, v1, v2 = b0 - a0, b1 - a1, b2 - a2
-    w, u = bodies.omega[markers.body[j]], bodies.omega[markers.body[i]]
-    distance = 0.0 * v0
-    for a in range(3):
-        n[SHIFT + a], n[SPEED + a], n[SPIN + a] = 0.0 * v0, A[0, a] * v0 + A[1, a] * v1 + A[2, a] * v2, 0.0 * v0
-        for b in range(3):
-            n[SHIFT + a] += A[b, a] * (markers.r[j, b] - r[b])
-            n[SPIN + a] += A[b, a] * (w[b] - u[b])
-            n[TURN + 3 * a + b] = A[0, a] * B[0, b] + A[1, a] * B[1, b] + A[2, a] * B[2, b]
-        distance += n[SHIFT + a] * n[SHIFT + a]
+    A, B, r, w = markers.A[i], markers.A[j], markers.r[i], bodies.omega[markers.body[i]]
+    v = minus(velocity_at(bodies, markers.body[j], r), velocity_at(bodies, markers.body[i], r))
+    shift = seen(A, minus(markers.r[j], r))
+    put(n, SHIFT, shift)
+    put(n, SPEED, seen(A, v))
+    put(n, SPIN, seen(A, minus(bodies.omega[markers.body[j]], w)))
+    for b in range(3):
+        column = seen(A, axis(B, b))
+        n[TURN + b], n[TURN + 3 + b], n[TURN + 6 + b] = column
     if columns[SURFACE] != NONE:
         find_surface(machine, columns[SURFACE:], n[MOVING:], t)
-        for a in range(3):
-            n[OVER + a] = A[0, a] * n[MOVING] + A[1, a] * n[MOVING + 1] + A[2, a] * n[MOVING + 2]
-    return np.sqrt(distance)
+        put(n, OVER, seen(A, n[MOVING:]))
+    return np.sqrt(dot(shift, shift))
 
 
 @leaf
 def length_of(n, first):
     """Length of a vector, 0 of none."""
-    squared = n[first] * n[first] + n[first + 1] * n[first + 1] + n[first + 2] * n[first + 2]
+    squared = dot(n[first:], n[first:])
     return np.sqrt(squared) if real(squared) > 0.0 else 0.0 * squared
 
 
@@ -191,53 +170,41 @@ def clear(n):
 
 
 @leaf
-def add_to(n, sums, x, y, z, f0, f1, f2):
+def add_to(n, sums, p, force):
     """Add a force at a point to the sums of force and torque that begin at `sums`."""
-    n[sums] += f0
-    n[sums + 1] += f1
-    n[sums + 2] += f2
-    n[sums + 3] += y * f2 - z * f1
-    n[sums + 4] += z * f0 - x * f2
-    n[sums + 5] += x * f1 - y * f0
+    put(n, sums, plus(n[sums:], force))
+    put(n, sums + 3, plus(n[sums + 3 :], cross(p, force)))
 
 
 @leaf
-def slip_at(n, v0, v1, v2):
+def slip_at(n, v):
     """Velocity with which the second surface slides over the first, where the second body moves relative to the first."""
-    N = n[NORMAL : NORMAL + 3]
-    x, y, z = v0 + n[OVER], v1 + n[OVER + 1], v2 + n[OVER + 2]
-    out = x * N[0] + y * N[1] + z * N[2]
-    return x - out * N[0], y - out * N[1], z - out * N[2]
+    N, whole = n[NORMAL : NORMAL + 3], plus(v, n[OVER:])
+    return minus(whole, times(dot(whole, N), N))
 
 
 @leaf
-def rub_at(n, weight, x, y, z):
+def rub_at(n, weight, p):
     """Add what damping and friction do where an elastic pressure pushes the second hull with the force `weight` against the normal of the
     plane; returns the power that is lost."""
-    m, N = n[PLANE + 6 : PLANE + 9], n[NORMAL : NORMAL + 3]
-    v0, v1, v2 = velocity(n, x, y, z)
-    rate = -(N[0] * v0 + N[1] * v1 + N[2] * v2)
+    m, N, v = n[PLANE + 6 : PLANE + 9], n[NORMAL : NORMAL + 3], velocity(n, p)
+    rate = -dot(N, v)
     damping = weight * maximum(n[DAMPING] * rate, -1.0 + 0.0 * rate)
-    add_to(n, PUSH, x, y, z, -damping * m[0], -damping * m[1], -damping * m[2])
-    loss = damping * (m[0] * v0 + m[1] * v1 + m[2] * v2)
+    add_to(n, PUSH, p, times(-damping, m))
+    loss = damping * dot(m, v)
     if real(n[FRICTION]) > 0.0 and real(n[TRANSITION]) == 0.0:
-        force = -(weight + damping) * (m[0] * N[0] + m[1] * N[1] + m[2] * N[2])
-        sums = n[RUB:BOX]
+        force, sums = -(weight + damping) * dot(m, N), n[RUB:BOX]
         sums[0] += force
-        sums[1] += force * x
-        sums[2] += force * y
-        sums[3] += force * z
-        sums[4] += force * (x * x + y * y + z * z)
+        put(sums, 1, plus(sums[1:], times(force, p)))
+        sums[4] += force * dot(p, p)
     elif real(n[FRICTION]) > 0.0:
-        s0, s1, s2 = slip_at(n, v0, v1, v2)
-        squared = s0 * s0 + s1 * s1 + s2 * s2
-        along = -(m[0] * N[0] + m[1] * N[1] + m[2] * N[2])
+        s, along = slip_at(n, v), -dot(m, N)
+        squared = dot(s, s)
         if real(squared) > 0.0 and real(along) > 0.0:
             speed = np.sqrt(squared)
             friction = n[FRICTION] * (weight + damping) * along * tanh(speed / n[TRANSITION])
             loss += friction * speed
-            friction = -friction / speed
-            add_to(n, RUB, x, y, z, friction * s0, friction * s1, friction * s2)
+            add_to(n, RUB, p, times(-friction / speed, s))
     return loss
 
 
@@ -248,8 +215,7 @@ def press_polygon(n, polygon, count, d, job, stretch):
     job : STORE, which adds no force; PRESS, the elastic pressure between cells of the two bodies; or RUB_ALONG, damping and friction.
     """
     d0, du, dv = d
-    frame = n[PLANE:NORMAL]
-    m = frame[6:9]
+    e1, e2, m, o = n[PLANE : PLANE + 3], n[PLANE + 3 : PLANE + 6], n[PLANE + 6 : PLANE + 9], n[PLANE + 9 : NORMAL]
     middle_u, middle_v = n[polygon], n[polygon + 1]
     for k in range(1, count):
         middle_u, middle_v = middle_u + n[polygon + 2 * k], middle_v + n[polygon + 2 * k + 1]
@@ -271,13 +237,11 @@ def press_polygon(n, polygon, count, d, job, stretch):
                 b0, b1, b2 = NEAR if g == 0 else FAR, NEAR if g == 1 else FAR, NEAR if g == 2 else FAR
                 weight = share * (b0 * middle + b1 * d1 + b2 * d2)
                 u, v = b0 * middle_u + b1 * u1 + b2 * u2, b0 * middle_v + b1 * v1 + b2 * v2
-                x = frame[9] + u * frame[0] + v * frame[3]
-                y = frame[10] + u * frame[1] + v * frame[4]
-                z = frame[11] + u * frame[2] + v * frame[5]
+                place = plus(plus(o, times(u, e1)), times(v, e2))
                 if job == PRESS:
-                    add_to(n, PUSH, x, y, z, -weight * m[0], -weight * m[1], -weight * m[2])
+                    add_to(n, PUSH, place, times(-weight, m))
                 else:
-                    loss += rub_at(n, weight, x, y, z)
+                    loss += rub_at(n, weight, place)
         p = q
     return energy, loss, deepest
 
@@ -321,7 +285,7 @@ def gap_of_edges(columns, n):
     for k in range(count):
         n[rows + k] = faces + 4 * k
         # the distance of any point is a bound
-        here = depth_under(n, faces + 4 * k, 0.5 * n[SHIFT], 0.5 * n[SHIFT + 1], 0.5 * n[SHIFT + 2])
+        here = depth_under(n, faces + 4 * k, times(0.5, n[SHIFT:]))
         floor = min(floor, real(here))
     gap = 2.0 * press(columns, n, count, floor, STORE)[2]
     return minimum(gap, 0.0 * gap - TOUCH)
@@ -354,8 +318,7 @@ def overlap(columns, n, distance, is_apart):
     clear(n)
     far = distance - n[RADIUS] - n[OTHER_RADIUS]
     if real(far) > 0.0:
-        speed = n[SHIFT] * n[SPEED] + n[SHIFT + 1] * n[SPEED + 1] + n[SHIFT + 2] * n[SPEED + 2]
-        return -far, -speed / distance, nothing, nothing
+        return -far, -dot(n[SHIFT:], n[SPEED:]) / distance, nothing, nothing
     place_second(columns, n)
     depth, rate, face = least_overlap(columns, n)
     if real(depth) <= 0.0:
@@ -382,10 +345,8 @@ def find_patch(machine, k):
     if real(sums[0]) > 0.0:
         A = markers.A[i]
         d, reach = middle_of(sums)
-        d, normal = turned(A, d), turned(A, (-n[NORMAL], -n[NORMAL + 1], -n[NORMAL + 2]))
-        p = plus(markers.r[i], d)
-        v, w = velocity_at(bodies, markers.body[i], p), velocity_at(bodies, markers.body[j], p)
-        pdot = 0.5 * (v[0] + w[0]), 0.5 * (v[1] + w[1]), 0.5 * (v[2] + w[2])
+        d, normal = turned(A, d), turned(A, opposite(n[NORMAL:]))
+        pdot = mean_of(bodies, markers.body[i], markers.body[j], plus(markers.r[i], d))
         place_patch(machine, columns[PATCH:], n[MOVING:], i, j, sums[0], d, reach, normal, pdot)
     else:
         leave_patch(machine, np.int64(columns[PATCH]), np.int64(columns[AXES]), np.int64(columns[COORDINATE]))
@@ -403,30 +364,16 @@ def middle_of_push(machine, k):
     squared = dot(F, F)
     x = 0.0 * squared, 0.0 * squared, 0.0 * squared
     if real(squared) > 0.0:
-        x = cross(F, T)
-        along = 0.0 * squared
-        for a in range(3):
-            along += F[a] * 0.5 * (n[BOX + a] + n[BOX + 3 + a])
-        x = (x[0] + along * F[0]) / squared, (x[1] + along * F[1]) / squared, (x[2] + along * F[2]) / squared
+        along = 0.5 * dot(F, plus(n[BOX:], n[BOX + 3 :]))
+        x = times(1.0 / squared, plus(cross(F, T), times(along, F)))
     return plus(record.markers.r[i], turned(record.markers.A[i], x))
-
-
-@leaf
-def turned(A, d):
-    """A d."""
-    x = A[0, 0] * d[0] + A[0, 1] * d[1] + A[0, 2] * d[2]
-    y = A[1, 0] * d[0] + A[1, 1] * d[1] + A[1, 2] * d[2]
-    return x, y, A[2, 0] * d[0] + A[2, 1] * d[1] + A[2, 2] * d[2]
 
 
 @leaf
 def speed_of_slip(n):
     """Speed across the normal at the middle of the normal force, between the two bodies."""
     F, T = n[PUSH:PUSH_TORQUE], n[PUSH_TORQUE:RUB]
-    squared = dot(F, F)
-    p = cross(F, T)
-    v = velocity(n, p[0] / squared, p[1] / squared, p[2] / squared)
-    s = slip_at(n, v[0], v[1], v[2])
+    s = slip_at(n, velocity(n, times(1.0 / dot(F, F), cross(F, T))))
     square = dot(s, s)
     return np.sqrt(square) if real(square) > 0.0 else 0.0 * square
 
@@ -437,57 +384,42 @@ def push(machine, k):
     record = record_at(machine)
     markers, bodies, n = record.markers, record.bodies, record.elements.number[k]
     i, j = record.elements.columns[k, MARKER], record.elements.columns[k, OTHER]
-    A, r = markers.A[i], markers.r[i]
-    F, T, f, t = n[PUSH:PUSH_TORQUE], n[PUSH_TORQUE:RUB], n[RUB:RUB_TORQUE], n[RUB_TORQUE:BOX]
-    x, y, z = F[0] + f[0], F[1] + f[1], F[2] + f[2]
-    p, q, s = T[0] + t[0], T[1] + t[1], T[2] + t[2]
-    F0 = A[0, 0] * x + A[0, 1] * y + A[0, 2] * z
-    F1 = A[1, 0] * x + A[1, 1] * y + A[1, 2] * z
-    F2 = A[2, 0] * x + A[2, 1] * y + A[2, 2] * z
-    T0 = A[0, 0] * p + A[0, 1] * q + A[0, 2] * s
-    T1 = A[1, 0] * p + A[1, 1] * q + A[1, 2] * s
-    T2 = A[2, 0] * p + A[2, 1] * q + A[2, 2] * s
-    power = add_force_at(bodies, markers.body[j], r, F0, F1, F2) + add_torque(bodies, markers.body[j], T0, T1, T2)
-    power += add_force_at(bodies, markers.body[i], r, -F0, -F1, -F2)
-    return power + add_torque(bodies, markers.body[i], -T0, -T1, -T2)
+    A, r, first, second = markers.A[i], markers.r[i], markers.body[i], markers.body[j]
+    force, torque = turned(A, plus(n[PUSH:], n[RUB:])), turned(A, plus(n[PUSH_TORQUE:], n[RUB_TORQUE:]))
+    power = add_force_at(bodies, second, r, force) + add_torque(bodies, second, torque)
+    return power + add_force_at(bodies, first, r, opposite(force)) + add_torque(bodies, first, opposite(torque))
 
 
-@family
-def apply(machine, number, t):
-    """All contacts of two hulls."""
+@element
+def apply(machine, k, columns, n, t):
+    """A contact of two hulls."""
     record = record_at(machine)
     elements, control, followed = record.elements, record.control, record.watched.followed[0]
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        columns, n = elements.columns[k], elements.number[k]
-        distance = see(machine, k, t)
-        # where steps end at a touch, the hulls touch from the next accepted state on
-        depth, rate, energy, loss = overlap(columns, n, distance, followed == 1 and elements.memory[k, 0] == 0.0)
-        elements.depth[k, 0], elements.proposal[k, 0] = depth, 0.0 * depth + (1.0 if real(depth) > 0.0 else 0.0)
-        if followed == 1:
-            elements.depth_rate[k, 0] = rate
-        normal, power, slip = length_of(n, PUSH), 0.0 * depth, 0.0 * depth
-        given, first = 0.0 * depth, columns[OUTPUT]
-        p = middle_of_push(machine, k) if columns[PATCH] == NONE else find_patch(machine, k)
-        if real(normal) > 0.0:
-            power, slip = push(machine, k), speed_of_slip(n)
-            given, spun = -dot(n[RUB:RUB_TORQUE], n[OVER:MOVING]), dot(n[RUB_TORQUE:BOX], n[SPIN:PUSH])
-            rubbed = given - dot(n[RUB:RUB_TORQUE], n[SPEED:SPIN]) - spun
-            A = record.markers.A[columns[MARKER]]
-            N = turned(A, (-n[NORMAL], -n[NORMAL + 1], -n[NORMAL + 2]))
-            drag = turned(A, (-n[RUB], -n[RUB + 1], -n[RUB + 2]))
-            write_touch(machine, first, p, N, drag, rubbed, given)
-        else:
-            leave_touch(machine, first)
-        control.power[0] += given
-        control.stored[0] += energy
-        control.power[1] += loss
-        out = record.outputs.value
-        out[first + DEPTH], out[first + FORCE], out[first + RATE] = depth, normal, rate
-        out[first + FRICTION_FORCE], out[first + SLIP_SPEED] = length_of(n, RUB), slip
-        for a in range(3):
-            n[PUSH + a] += n[RUB + a]
-        out[first], out[first + 1] = length_of(n, PUSH), power
-    return OK
+    distance = see(machine, k, t)
+    # where steps end at a touch, the hulls touch from the next accepted state on
+    depth, rate, energy, loss = overlap(columns, n, distance, followed == 1 and elements.memory[k, 0] == 0.0)
+    elements.depth[k, 0], elements.proposal[k, 0] = depth, 0.0 * depth + (1.0 if real(depth) > 0.0 else 0.0)
+    if followed == 1:
+        elements.depth_rate[k, 0] = rate
+    normal, power, slip, given = length_of(n, PUSH), 0.0 * depth, 0.0 * depth, 0.0 * depth
+    out, first = record.outputs.value, columns[OUTPUT]
+    p = middle_of_push(machine, k) if columns[PATCH] == NONE else find_patch(machine, k)
+    if real(normal) > 0.0:
+        power, slip = push(machine, k), speed_of_slip(n)
+        given, spun = -dot(n[RUB:RUB_TORQUE], n[OVER:MOVING]), dot(n[RUB_TORQUE:BOX], n[SPIN:PUSH])
+        rubbed = given - dot(n[RUB:RUB_TORQUE], n[SPEED:SPIN]) - spun
+        A = record.markers.A[columns[MARKER]]
+        N, drag = turned(A, opposite(n[NORMAL:])), turned(A, opposite(n[RUB:]))
+        write_touch(machine, first, p, N, drag, rubbed, given)
+    else:
+        leave_touch(machine, first)
+    control.power[0] += given
+    control.stored[0] += energy
+    control.power[1] += loss
+    out[first + DEPTH], out[first + FORCE], out[first + RATE] = depth, normal, rate
+    out[first + FRICTION_FORCE], out[first + SLIP_SPEED] = length_of(n, RUB), slip
+    put(n, PUSH, plus(n[PUSH:], n[RUB:]))
+    out[first], out[first + 1] = length_of(n, PUSH), power
 
 
 def row_of(hulls: tuple[Hull, Hull], force: Contact, patch: list[int]) -> tuple[list[int], list[float]]:

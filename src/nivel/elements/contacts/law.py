@@ -22,15 +22,16 @@ from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.elements.contacts.impact import damping_of_restitution, impact
 from nivel.kernels.algebra.analytic import maximum, real, tanh
 from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.algebra.vectors import axis, minus, opposite, plus, put, times
 from nivel.kernels.core.status import OK
-from nivel.kernels.elements.patch import axis, leave_patch, middle_of, minus, plus, tangents, write_patch
+from nivel.kernels.elements.patch import leave_patch, middle_of, tangents, write_patch
 from nivel.kernels.elements.touch import DEPTH, FORCE, RATE, RUB, SLIP, leave_touch, write_touch
-from nivel.kernels.forces.wrench import add_force_at
+from nivel.kernels.forces.wrench import add_force_at, velocity_at
 from nivel.kernels.record.function import evaluate_function, evaluate_motion
 from nivel.kernels.record.hook import Family, family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.lazy import dataclass
-from nivel.native.function import leaf, stage
+from nivel.native.function import stage
 
 # columns; FUNCTIONS: the first of four, or NONE; SMOOTH: 1 where they are motions, whose rates are known; FRAME: the marker
 FUNCTIONS, SMOOTH, FRAME = 0, 1, 2
@@ -60,12 +61,6 @@ def find_surface(machine, columns, n, t):
     turning = cross(W, n[VELOCITY:CHANGE])
     for a in range(3):
         n[CHANGE + a] += turning[a]
-
-
-@leaf
-def times(s, x):
-    """s x of a 3-vector."""
-    return s * x[0], s * x[1], s * x[2]
 
 
 @stage
@@ -102,12 +97,6 @@ RUBBED, RUBBING, LOST, GIVEN, POWER, DEEPEST, DEEPEST_RATE, SLIDING, MOVING = 26
 NUMBERS = MOVING + SURFACE_NUMBERS
 # Bodies are far from each other where their balls are apart by this share of the radii.
 FAR = 0.25
-
-
-@stage
-def seen(A, d):
-    """Aᵀ d."""
-    return dot(axis(A, 0), d), dot(axis(A, 1), d), dot(axis(A, 2), d)
 
 
 @stage
@@ -156,14 +145,6 @@ def is_far(machine, k):
 
 
 @stage
-def velocity_at(bodies, b, p):
-    """Velocity of the point of body b that is at p."""
-    R, V, w = bodies.R[b], bodies.Rdot[b], bodies.omega[b]
-    u0, u1, u2 = p[0] - R[0], p[1] - R[1], p[2] - R[2]
-    return V[0] + w[1] * u2 - w[2] * u1, V[1] + w[2] * u0 - w[0] * u2, V[2] + w[0] * u1 - w[1] * u0
-
-
-@stage
 def meets(machine, k, n, i, j, depth):
     """Note the overlap of surface n of contact k, between markers i and j, at the point and normal in its numbers, where the relative
     velocity is left; returns (whether the law acts there, rate of the overlap)."""
@@ -172,7 +153,7 @@ def meets(machine, k, n, i, j, depth):
     numbers = elements.number[k]
     p, normal = numbers[POINT:NORMAL], numbers[NORMAL:SPEED]
     v = minus(velocity_at(bodies, body[i], p), velocity_at(bodies, body[j], p))
-    numbers[SPEED], numbers[SPEED + 1], numbers[SPEED + 2] = v
+    put(numbers, SPEED, v)
     rate = -dot(v, normal)
     elements.depth[k, n] = depth
     if followed == 1:
@@ -195,8 +176,7 @@ def needs_speed(machine, k, n, depth):
 @stage
 def note_speed(machine, k, v):
     """Leave the velocity of the point of contact k itself in the numbers."""
-    numbers = record_at(machine).elements.number[k]
-    numbers[OWN_SPEED], numbers[OWN_SPEED + 1], numbers[OWN_SPEED + 2] = v
+    put(record_at(machine).elements.number[k], OWN_SPEED, v)
 
 
 @stage
@@ -205,8 +185,13 @@ def mean_speed(machine, k, n):
     record = record_at(machine)
     bodies, body, columns = record.bodies, record.markers.body, record.elements.columns[k]
     p = record.elements.number[k, POINT:NORMAL]
-    v, u = velocity_at(bodies, body[columns[MARKER]], p), velocity_at(bodies, body[columns[OTHER]], p)
-    return 0.5 * (v[0] + u[0]), 0.5 * (v[1] + u[1]), 0.5 * (v[2] + u[2])
+    return mean_of(bodies, body[columns[MARKER]], body[columns[OTHER]], p)
+
+
+@stage
+def mean_of(bodies, first, second, p):
+    """The mean of the velocities of two bodies at p."""
+    return times(0.5, plus(velocity_at(bodies, first, p), velocity_at(bodies, second, p)))
 
 
 @stage
@@ -264,11 +249,10 @@ def creep_friction(machine, k, force):
     control, columns, numbers = record.control, record.elements.columns[k], record.elements.number[k]
     normal, v, o = numbers[NORMAL:SPEED], numbers[SPEED:OWN_SPEED], 0.0 * force
     out, over = dot(v, normal), (o, o, o)
-    s = v[0] - out * normal[0], v[1] - out * normal[1], v[2] - out * normal[2]
+    s = minus(v, times(out, normal))
     if columns[SURFACE] != NONE:
         over = surface_at(machine, columns[SURFACE + 2], numbers[MOVING:NUMBERS], numbers[POINT:NORMAL])
-        up = dot(over, normal)
-        over = over[0] - up * normal[0], over[1] - up * normal[1], over[2] - up * normal[2]
+        over = minus(over, times(dot(over, normal), normal))
         s = minus(s, over)
     squared = dot(s, s)
     speed = np.sqrt(squared) if real(squared) > 0.0 else 0.0 * squared
@@ -277,8 +261,7 @@ def creep_friction(machine, k, force):
     if not (real(numbers[FRICTION]) > 0.0 and real(speed) > 0.0):
         return o, o, o
     friction = numbers[FRICTION] * force * tanh(speed / numbers[TRANSITION])
-    share = -friction / speed
-    s = share * s[0], share * s[1], share * s[2]
+    s = times(-friction / speed, s)
     given, lost = dot(s, over), friction * speed
     control.power[0] += given
     control.power[1] += lost
@@ -298,9 +281,9 @@ def push(machine, k, n, i, j, depth, rate, t):
     p, normal, sums = numbers[POINT:NORMAL], numbers[NORMAL:SPEED], numbers[SUMS:RUBBED]
     force = normal_force(machine, k, n, depth, rate, t)
     rub = creep_friction(machine, k, force)
-    x, y, z = force * normal[0] + rub[0], force * normal[1] + rub[1], force * normal[2] + rub[2]
-    power = add_force_at(bodies, markers.body[i], p, x, y, z)
-    numbers[POWER] += power + add_force_at(bodies, markers.body[j], p, -x, -y, -z)
+    whole = plus(times(force, normal), rub)
+    power = add_force_at(bodies, markers.body[i], p, whole)
+    numbers[POWER] += power + add_force_at(bodies, markers.body[j], p, opposite(whole))
     d = minus(p, markers.r[i])
     sums[0] += force
     for a in range(3):

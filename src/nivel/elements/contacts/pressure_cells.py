@@ -17,6 +17,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.algebra.vectors import minus, put
 from nivel.native.function import leaf
 
 # normals whose difference is shorter than this belong to parallel faces: their cells do not meet
@@ -32,18 +34,18 @@ def whole(x):
 
 
 @leaf
-def depth_under(n, face, x, y, z):
-    """Distance of a point from the face whose row begins at `face`, positive inside."""
-    return n[face + 3] - n[face] * x - n[face + 1] * y - n[face + 2] * z
+def depth_under(n, face, p):
+    """Distance of the point p from the face whose row begins at `face`, positive inside."""
+    return n[face + 3] - n[face] * p[0] - n[face + 1] * p[1] - n[face + 2] * p[2]
 
 
 @leaf
 def overlap_under(n, face, corners, count):
     """(largest distance under a face of `count` corners that begin at `corners`, place of that corner)."""
-    deepest, found = depth_under(n, face, n[corners], n[corners + 1], n[corners + 2]), corners
+    deepest, found = depth_under(n, face, n[corners:]), corners
     for k in range(1, count):
         p = corners + 3 * k
-        depth = depth_under(n, face, n[p], n[p + 1], n[p + 2])
+        depth = depth_under(n, face, n[p:])
         if real(depth) > real(deepest):
             deepest, found = depth, p
     return deepest, found
@@ -60,13 +62,13 @@ def bound_cap(n, face, corners, count, edges, size, box):
         box[a], box[a + 3] = np.inf, -np.inf
     for k in range(count):
         p = corners + 3 * k
-        if real(depth_under(n, face, n[p], n[p + 1], n[p + 2])) >= -margin:
+        if real(depth_under(n, face, n[p:])) >= -margin:
             for a in range(3):
                 box[a], box[a + 3] = min(real(box[a]), real(n[p + a])), max(real(box[a + 3]), real(n[p + a]))
     for k in range(0, edges.shape[0], 2):
         p, q = corners + 3 * np.int64(edges[k]), corners + 3 * np.int64(edges[k + 1])
-        here = real(depth_under(n, face, n[p], n[p + 1], n[p + 2])) + margin
-        there = real(depth_under(n, face, n[q], n[q + 1], n[q + 2])) + margin
+        here = real(depth_under(n, face, n[p:])) + margin
+        there = real(depth_under(n, face, n[q:])) + margin
         if here * there < 0.0:
             share = here / (here - there)
             for a in range(3):
@@ -106,8 +108,8 @@ def span_plane(n, i, j, box, frame):
     """frame (12,) := of the plane on which faces i and j are equally far away: two axes in it, its normal from the cell of i to that of j,
     its point next to the middle of the box. Returns |n_j - n_i|, or 0 where the plane misses the box."""
     e1, e2, m, o = frame[0:3], frame[3:6], frame[6:9], frame[9:12]
-    m[0], m[1], m[2] = n[j] - n[i], n[j + 1] - n[i + 1], n[j + 2] - n[i + 2]
-    length = np.sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2])
+    put(m, 0, minus(n[j:], n[i:]))
+    length = np.sqrt(dot(m, m))
     if real(length) < PARALLEL:
         return 0.0 * length
     away, radius = (n[j + 3] - n[i + 3]) / length, 0.0
@@ -128,9 +130,7 @@ def span_plane(n, i, j, box, frame):
     second, third = (least + 1) % 3, (least + 2) % 3
     size = np.sqrt(m[second] * m[second] + m[third] * m[third])
     e1[least], e1[second], e1[third] = 0.0 * size, -m[third] / size, m[second] / size
-    e2[0] = m[1] * e1[2] - m[2] * e1[1]
-    e2[1] = m[2] * e1[0] - m[0] * e1[2]
-    e2[2] = m[0] * e1[1] - m[1] * e1[0]
+    put(e2, 0, cross(m, e1))
     return length
 
 
@@ -158,10 +158,8 @@ def clip(n, source, count, target, s0, su, sv):
 @leaf
 def along_plane(n, face, frame):
     """Distance under a face of the point u, v of a plane, as (d0, du, dv): d0 + du u + dv v."""
-    d0 = depth_under(n, face, frame[9], frame[10], frame[11])
-    du = -(n[face] * frame[0] + n[face + 1] * frame[1] + n[face + 2] * frame[2])
-    dv = -(n[face] * frame[3] + n[face + 1] * frame[4] + n[face + 2] * frame[5])
-    return d0, du, dv
+    d0 = depth_under(n, face, frame[9:])
+    return d0, -dot(n[face:], frame), -dot(n[face:], frame[3:])
 
 
 @leaf

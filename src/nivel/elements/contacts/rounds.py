@@ -26,12 +26,11 @@ from nivel.elements.contacts.law import (
     is_far,
     mean_speed,
     pair,
-    seen,
 )
 from nivel.elements.contacts.shapes import ball_of_shape, part_of, polytope_of
 from nivel.kernels.algebra.analytic import absolute, real
 from nivel.kernels.algebra.spatial import dot
-from nivel.kernels.elements.patch import axis, minus
+from nivel.kernels.algebra.vectors import axis, minus, plus, put, seen, times, turned
 from nivel.kernels.record.record import record_at
 from nivel.known import Contact
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere
@@ -117,53 +116,46 @@ def from_hull(x, n):
     best, most = first, -np.inf
     for k in range(faces):
         p = first + 4 * k
-        over = real(x[0]) * n[p] + real(x[1]) * n[p + 1] + real(x[2]) * n[p + 2] - n[p + 3]
-        if real(over) > most:
-            best, most = p, real(over)
-    d = x[0] * n[best] + x[1] * n[best + 1] + x[2] * n[best + 2] - n[best + 3]
+        over = real(height_over(x, n, p))
+        if over > most:
+            best, most = p, over
+    d = height_over(x, n, best)
     o = 0.0 * d
     is_before = True
     if real(d) > 0.0:
-        y0, y1, y2 = (
-            real(x[0]) - real(d) * real(n[best]),
-            real(x[1]) - real(d) * real(n[best + 1]),
-            real(x[2]) - real(d) * real(n[best + 2]),
-        )
+        y = minus(x, times(d, n[best:]))
         for k in range(faces):
             p = first + 4 * k
-            over = y0 * real(n[p]) + y1 * real(n[p + 1]) + y2 * real(n[p + 2]) - real(n[p + 3])
-            if over > EDGE * np.abs(real(n[p + 3])) + EDGE * real(d):
+            if real(height_over(y, n, p)) > EDGE * np.abs(real(n[p + 3])) + EDGE * real(d):
                 is_before = False
     if is_before:
         return d, o + n[best], o + n[best + 1], o + n[best + 2]
     first += 4 * faces
-    least, at = np.inf, first
+    least, nearest = np.inf, (o, o, o)
     for k in range(edges):
-        p = first + 6 * k
-        s = share_of_edge(real(x[0]), real(x[1]), real(x[2]), n, p)
-        z0 = real(x[0]) - real(n[p]) - s * (real(n[p + 3]) - real(n[p]))
-        z1 = real(x[1]) - real(n[p + 1]) - s * (real(n[p + 4]) - real(n[p + 1]))
-        z2 = real(x[2]) - real(n[p + 2]) - s * (real(n[p + 5]) - real(n[p + 2]))
-        if z0 * z0 + z1 * z1 + z2 * z2 < least:
-            least, at = z0 * z0 + z1 * z1 + z2 * z2, p
-    e0, e1, e2 = n[at + 3] - n[at], n[at + 4] - n[at + 1], n[at + 5] - n[at + 2]
-    d0, d1, d2 = x[0] - n[at], x[1] - n[at + 1], x[2] - n[at + 2]
-    s = (d0 * e0 + d1 * e1 + d2 * e2) / (e0 * e0 + e1 * e1 + e2 * e2)
+        away = from_edge(x, n, first + 6 * k)
+        if real(dot(away, away)) < least:
+            least, nearest = real(dot(away, away)), away
+    size = np.sqrt(dot(nearest, nearest))
+    return size, nearest[0] / size, nearest[1] / size, nearest[2] / size
+
+
+@leaf
+def height_over(x, n, face):
+    """Height of x over the face of a hull whose normal and distance begin there."""
+    return x[0] * n[face] + x[1] * n[face + 1] + x[2] * n[face + 2] - n[face + 3]
+
+
+@leaf
+def from_edge(x, n, p):
+    """x from the next point of the edge whose ends begin at p."""
+    e, d = minus(n[p + 3 :], n[p:]), minus(x, n[p:])
+    s = dot(d, e) / dot(e, e)
     if real(s) < 0.0:
         s = 0.0 * s
     elif real(s) > 1.0:
         s = 0.0 * s + 1.0
-    d0, d1, d2 = d0 - s * e0, d1 - s * e1, d2 - s * e2
-    d = np.sqrt(d0 * d0 + d1 * d1 + d2 * d2)
-    return d, d0 / d, d1 / d, d2 / d
-
-
-@leaf
-def share_of_edge(x, y, z, n, p):
-    """Where on an edge the next point is, from 0 to 1."""
-    e0, e1, e2 = real(n[p + 3]) - real(n[p]), real(n[p + 4]) - real(n[p + 1]), real(n[p + 5]) - real(n[p + 2])
-    along = (x - real(n[p])) * e0 + (y - real(n[p + 1])) * e1 + (z - real(n[p + 2])) * e2
-    return min(max(along / (e0 * e0 + e1 * e1 + e2 * e2), 0.0), 1.0)
+    return minus(d, times(s, e))
 
 
 @part
@@ -181,7 +173,7 @@ def surface_distance(kind, x, n):
 @leaf
 def along_segment(kind, x, a, t, n):
     """Rate of the distance along the segment x + t a."""
-    _, p, q, r = surface_distance(kind, (x[0] + t * a[0], x[1] + t * a[1], x[2] + t * a[2]), n)
+    _, p, q, r = surface_distance(kind, plus(x, times(t, a)), n)
     return p * a[0] + q * a[1] + r * a[2]
 
 
@@ -266,7 +258,7 @@ def over_face(low, high, x, a, g, n):
     best, most = first, -np.inf
     for k in range(faces):
         p = first + 4 * k
-        towards = real(g[0]) * real(n[p]) + real(g[1]) * real(n[p + 1]) + real(g[2]) * real(n[p + 2])
+        towards = real(dot(g, n[p:]))
         if towards > most:
             best, most = p, towards
     m = n[best], n[best + 1], n[best + 2]
@@ -286,7 +278,7 @@ def ends_over_side(kind, x, a, half, n, t):
     low, high = -half + 0.0 * x[0], half + 0.0 * x[0]
     if kind == SEGMENT:
         return clipped(low, high, x[2], a[2], n[0])
-    _, g0, g1, g2 = surface_distance(kind, (x[0] + t * a[0], x[1] + t * a[1], x[2] + t * a[2]), n)
+    _, g0, g1, g2 = surface_distance(kind, plus(x, times(t, a)), n)
     if kind == CYLINDER:
         if real(g2) * real(g2) >= 0.5:
             return within_circle(low, high, x, a, n[0])
@@ -315,8 +307,8 @@ def other_end(kind, x, a, half, n, t, radius):
     if real(length) < real(radius):
         share = 1.0 - length / radius
         less = radius * share * share
-    up = surface_distance(kind, (x[0] + high * a[0], x[1] + high * a[1], x[2] + high * a[2]), n)[0]
-    down = surface_distance(kind, (x[0] + low * a[0], x[1] + low * a[1], x[2] + low * a[2]), n)[0]
+    up = surface_distance(kind, plus(x, times(high, a)), n)[0]
+    down = surface_distance(kind, plus(x, times(low, a)), n)[0]
     takes_high = real(up) > real(down)
     if np.abs(real(up) - real(down)) <= EQUAL * real(radius):
         takes_high = real(high) - real(t) > real(t) - real(low)
@@ -336,9 +328,8 @@ def note_place(machine, k, j, y, g, sign):
     """Leave in the numbers of contact k the point y and the normal g, in axes of marker j, which is turned by `sign`."""
     record = record_at(machine)
     A, r, numbers = record.markers.A[j], record.markers.r[j], record.elements.number[k]
-    for a in range(3):
-        numbers[POINT + a] = r[a] + A[a, 0] * y[0] + A[a, 1] * y[1] + A[a, 2] * y[2]
-        numbers[NORMAL + a] = sign * (A[a, 0] * g[0] + A[a, 1] * g[1] + A[a, 2] * g[2])
+    put(numbers, POINT, plus(r, turned(A, y)))
+    put(numbers, NORMAL, times(sign, turned(A, g)))
 
 
 @pair(is_far, mean_speed)
@@ -353,12 +344,11 @@ def apply(machine, k, n):
     t, less = nearest_of_segment(kind, x, a, half, shape), 0.0 * half
     if n + 1 < record.elements.columns[k, COUNT]:
         t, less = other_end(kind, x, a, half, shape, t, more[BALL])
-    y = x[0] + t * a[0], x[1] + t * a[1], x[2] + t * a[2]
+    y = plus(x, times(t, a))
     distance, g0, g1, g2 = surface_distance(kind, y, shape)
     depth = more[BALL] + more[CORE] - less - distance
     # in the middle of the overlap
-    below = more[BALL] - 0.5 * depth
-    y = y[0] - below * g0, y[1] - below * g1, y[2] - below * g2
+    y = minus(y, times(more[BALL] - 0.5 * depth, (g0, g1, g2)))
     note_place(machine, k, j, y, (g0, g1, g2), sign)
     return depth
 

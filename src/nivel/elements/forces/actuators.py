@@ -9,13 +9,11 @@ from typing import ClassVar, Literal
 from nivel.elements.contacts.impact import damping_of_restitution, impact
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, is_angle, of_effort, of_value
-from nivel.elements.rows import Row
+from nivel.elements.rows import Row, element
 from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import maximum, real
-from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import evaluate_function, evaluate_motion
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
@@ -161,85 +159,79 @@ class ServoRow(Row):
     motion: float
 
 
-@family
-def stop(machine, number, t):
+@element
+def stop(machine, k, index, n, t):
     """Compliant surfaces at LOWER and UPPER, see `nivel.elements.contacts.impact`."""
     record = record_at(machine)
-    elements, coordinates, control = record.elements, record.coordinates, record.control
-    followed = record.watched.followed[0]
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        n, memory, proposal, depth = elements.number[k], elements.memory[k], elements.proposal[k], elements.depth[k]
-        q, out = elements.columns[k, StopRow.COORDINATE], elements.columns[k, StopRow.OUTPUT]
-        c, rate = coordinates.value[q], coordinates.rate[q]
-        depth[0], depth[1] = n[StopRow.LOWER] - c, c - n[StopRow.UPPER]
-        if followed == 1:
-            elements.depth_rate[k, 0], elements.depth_rate[k, 1] = -rate, rate
-        stiffness, exponent, x = n[StopRow.STIFFNESS], n[StopRow.EXPONENT], n[StopRow.LOSS]
-        up, stored, loss, proposal[0] = impact(depth[0], -rate, stiffness, exponent, x, memory[0], followed)
-        control.stored[0] += stored
-        control.power[1] += loss
-        down, stored, loss, proposal[1] = impact(depth[1], rate, stiffness, exponent, x, memory[1], followed)
-        control.stored[0] += stored
-        control.power[1] += loss
-        record.outputs.value[out] = up - down
-        record.outputs.value[out + 1] = add_coordinate_force(machine, q, up - down)
-        record.outputs.value[out + 2] = maximum(maximum(depth[0], depth[1]), 0.0)
-    return OK
+    elements, coordinates, control, out = record.elements, record.coordinates, record.control, record.outputs.value
+    memory, proposal, depth, followed = (
+        elements.memory[k],
+        elements.proposal[k],
+        elements.depth[k],
+        record.watched.followed[0],
+    )
+    q, first = index[StopRow.COORDINATE], index[StopRow.OUTPUT]
+    c, rate = coordinates.value[q], coordinates.rate[q]
+    depth[0], depth[1] = n[StopRow.LOWER] - c, c - n[StopRow.UPPER]
+    if followed == 1:
+        elements.depth_rate[k, 0], elements.depth_rate[k, 1] = -rate, rate
+    stiffness, exponent, x = n[StopRow.STIFFNESS], n[StopRow.EXPONENT], n[StopRow.LOSS]
+    up, stored, loss, proposal[0] = impact(depth[0], -rate, stiffness, exponent, x, memory[0], followed)
+    control.stored[0] += stored
+    control.power[1] += loss
+    down, stored, loss, proposal[1] = impact(depth[1], rate, stiffness, exponent, x, memory[1], followed)
+    control.stored[0] += stored
+    control.power[1] += loss
+    out[first], out[first + 1] = up - down, add_coordinate_force(machine, q, up - down)
+    out[first + 2] = maximum(maximum(depth[0], depth[1]), 0.0)
 
 
-@family
-def drive(machine, number, t):
+@element
+def drive(machine, index, n, t):
     """Effort command, or gain (command - rate), cut off at ± limit."""
     record = record_at(machine)
-    elements, coordinates = record.elements, record.coordinates
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        q, out = elements.columns[k, MotorRow.COORDINATE], elements.columns[k, MotorRow.OUTPUT]
-        gain, limit = elements.number[k, MotorRow.GAIN], elements.number[k, MotorRow.LIMIT]
-        effort = evaluate_function(machine, elements.columns[k, MotorRow.TARGET], t)
-        if real(gain) > 0.0:
-            effort = gain * (effort - coordinates.rate[q])
-        # not min and max: these would hide an effort that is not a number
-        if real(effort) > real(limit):
-            effort = limit
-        elif real(effort) < -real(limit):
-            effort = -limit
-        record.outputs.value[out] = effort
-        power = add_coordinate_force(machine, q, effort)
-        record.outputs.value[out + 1] = power
-        record.outputs.value[out + 2], record.outputs.value[out + 3] = coordinates.value[q], coordinates.rate[q]
-        record.control.power[0] += power
-    return OK
+    coordinates, out = record.coordinates, record.outputs.value
+    q, first, gain, limit = index[MotorRow.COORDINATE], index[MotorRow.OUTPUT], n[MotorRow.GAIN], n[MotorRow.LIMIT]
+    effort = evaluate_function(machine, index[MotorRow.TARGET], t)
+    if real(gain) > 0.0:
+        effort = gain * (effort - coordinates.rate[q])
+    # not min and max: these would hide an effort that is not a number
+    if real(effort) > real(limit):
+        effort = limit
+    elif real(effort) < -real(limit):
+        effort = -limit
+    power = add_coordinate_force(machine, q, effort)
+    out[first], out[first + 1] = effort, power
+    out[first + 2], out[first + 3] = coordinates.value[q], coordinates.rate[q]
+    record.control.power[0] += power
 
 
-@family
-def servo(machine, number, t):
-    """Effort of all servos. At the limit the error is integrated only where that leads back (conditional integration)."""
+@element
+def servo(machine, index, n, t):
+    """Effort of a servo. At the limit the error is integrated only where that leads back (conditional integration)."""
     record = record_at(machine)
     elements, coordinates, out = record.elements, record.coordinates, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        q, x, first = index[ServoRow.COORDINATE], index[ServoRow.STATE], index[ServoRow.OUTPUT]
-        rate = 0.0 * coordinates.rate[q]
-        if real(n[ServoRow.MOTION]) > 0.0:
-            target, rate, _ = evaluate_motion(machine, index[ServoRow.TARGET], t)
-        else:
-            target = evaluate_function(machine, index[ServoRow.TARGET], t)
-        error = target - coordinates.value[q]
-        effort = n[ServoRow.STIFFNESS] * error + n[ServoRow.DAMPING] * (rate - coordinates.rate[q])
-        if x != NONE:
-            effort = effort + n[ServoRow.INTEGRAL] * elements.state[x]
-        wanted, limit = real(effort), real(n[ServoRow.LIMIT])
-        if wanted > limit:
-            effort = n[ServoRow.LIMIT]
-        elif wanted < -limit:
-            effort = -n[ServoRow.LIMIT]
-        if x != NONE and not ((wanted > limit and real(error) > 0.0) or (wanted < -limit and real(error) < 0.0)):
-            elements.state_rate[x] += error
-        power = add_coordinate_force(machine, q, effort)
-        out[first], out[first + 1] = effort, power
-        out[first + 2], out[first + 3], out[first + 4] = coordinates.value[q], coordinates.rate[q], error
-        record.control.power[0] += power
-    return OK
+    q, x, first = index[ServoRow.COORDINATE], index[ServoRow.STATE], index[ServoRow.OUTPUT]
+    rate = 0.0 * coordinates.rate[q]
+    if real(n[ServoRow.MOTION]) > 0.0:
+        target, rate, _ = evaluate_motion(machine, index[ServoRow.TARGET], t)
+    else:
+        target = evaluate_function(machine, index[ServoRow.TARGET], t)
+    error = target - coordinates.value[q]
+    effort = n[ServoRow.STIFFNESS] * error + n[ServoRow.DAMPING] * (rate - coordinates.rate[q])
+    if x != NONE:
+        effort = effort + n[ServoRow.INTEGRAL] * elements.state[x]
+    wanted, limit = real(effort), real(n[ServoRow.LIMIT])
+    if wanted > limit:
+        effort = n[ServoRow.LIMIT]
+    elif wanted < -limit:
+        effort = -n[ServoRow.LIMIT]
+    if x != NONE and not ((wanted > limit and real(error) > 0.0) or (wanted < -limit and real(error) < 0.0)):
+        elements.state_rate[x] += error
+    power = add_coordinate_force(machine, q, effort)
+    out[first], out[first + 1] = effort, power
+    out[first + 2], out[first + 3], out[first + 4] = coordinates.value[q], coordinates.rate[q], error
+    record.control.power[0] += power
 
 
 def add_stop(builder: SystemBuilder, force: Stop) -> None:

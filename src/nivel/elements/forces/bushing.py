@@ -14,11 +14,11 @@ import numpy as np
 
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, of_force
-from nivel.elements.rows import Row, several
+from nivel.elements.rows import Row, element, several
 from nivel.kernels.algebra.relative_rotation import rotation_vector, tangent_product
-from nivel.kernels.core.status import OK
+from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.algebra.vectors import minus, opposite, plus, seen, turned
 from nivel.kernels.forces.wrench import add_marker_force, add_torque
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.machine.core.between import Between
 from nivel.machine.core.checked import Problem
@@ -87,61 +87,45 @@ class BushingRow(Row):
     effort: Sequence[float] = several(6, default=(0.0,) * 6)
 
 
-@family
-def apply(machine, number, t):
-    """All bushings."""
+@element
+def apply(machine, index, n, t):
+    """Force and torque of a bushing on both bodies."""
     record = record_at(machine)
-    bodies, markers, elements, control = record.bodies, record.markers, record.elements, record.control
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        i, j, out = index[BushingRow.FIRST], index[BushingRow.SECOND], index[BushingRow.OUTPUT]
-        x, rate = n[BushingRow.X : BushingRow.RATE], n[BushingRow.RATE : BushingRow.EFFORT]
-        effort = n[BushingRow.EFFORT : BushingRow.EFFORT + 6]
-        A, ri, rj, vi, vj = markers.A[i], markers.r[i], markers.r[j], markers.rdot[i], markers.rdot[j]
-        wi, wj = bodies.omega[markers.body[i]], bodies.omega[markers.body[j]]
-        d0, d1, d2 = rj[0] - ri[0], rj[1] - ri[1], rj[2] - ri[2]
-        # ḋ seen from the first marker: ṙ_j - ṙ_i - ω_i × d
-        e0 = vj[0] - vi[0] - (wi[1] * d2 - wi[2] * d1)
-        e1 = vj[1] - vi[1] - (wi[2] * d0 - wi[0] * d2)
-        e2 = vj[2] - vi[2] - (wi[0] * d1 - wi[1] * d0)
-        w0, w1, w2 = wj[0] - wi[0], wj[1] - wi[1], wj[2] - wi[2]
+    bodies, markers, control, value = record.bodies, record.markers, record.control, record.outputs.value
+    i, j, out = index[BushingRow.FIRST], index[BushingRow.SECOND], index[BushingRow.OUTPUT]
+    x, rate = n[BushingRow.X : BushingRow.RATE], n[BushingRow.RATE : BushingRow.EFFORT]
+    effort, A = n[BushingRow.EFFORT : BushingRow.EFFORT + 6], markers.A[i]
+    first, second = markers.body[i], markers.body[j]
+    d, w = minus(markers.r[j], markers.r[i]), bodies.omega[first]
+    # ḋ seen from the first marker: ṙ_j - ṙ_i - ω_i × d
+    e = minus(minus(markers.rdot[j], markers.rdot[i]), cross(w, d))
+    x[0], x[1], x[2] = seen(A, d)
+    rate[0], rate[1], rate[2] = seen(A, e)
+    effort[0], effort[1], effort[2] = seen(A, minus(bodies.omega[second], w))
+    rotation_vector(A, markers.A[j], x[3:6])
+    tangent_product(x[3:6], effort[0:3], False, rate[3:6])
+    stored, loss = 0.0, 0.0
+    for a in range(6):
+        elastic, damping = 0.0, 0.0
+        for b in range(6):
+            elastic += n[BushingRow.STIFFNESS + 6 * a + b] * x[b]
+            damping += n[BushingRow.DAMPING + 6 * a + b] * rate[b]
+        stored += 0.5 * elastic * x[a]
+        loss += damping * rate[a]
+        effort[a] = -elastic - damping
+    control.stored[0] += stored
+    control.power[1] += loss
+    # the rotation vector's rates are no longer needed: their place takes the torque
+    tangent_product(x[3:6], effort[3:6], True, rate[0:3])
+    force, torque = turned(A, effort), turned(A, rate)
+    power = add_marker_force(bodies, markers, j, force) + add_torque(bodies, second, torque)
+    # the first body gets the counter-force at its own marker, and the moment of the offset d
+    power += add_marker_force(bodies, markers, i, opposite(force))
+    power += add_torque(bodies, first, opposite(plus(torque, cross(d, force))))
+    if out != NONE:
         for a in range(3):
-            x[a] = A[0, a] * d0 + A[1, a] * d1 + A[2, a] * d2
-            rate[a] = A[0, a] * e0 + A[1, a] * e1 + A[2, a] * e2
-            effort[a] = A[0, a] * w0 + A[1, a] * w1 + A[2, a] * w2
-        rotation_vector(A, markers.A[j], x[3:6])
-        tangent_product(x[3:6], effort[0:3], False, rate[3:6])
-        stored, loss = 0.0, 0.0
-        for a in range(6):
-            elastic, damping = 0.0, 0.0
-            for b in range(6):
-                elastic += n[BushingRow.STIFFNESS + 6 * a + b] * x[b]
-                damping += n[BushingRow.DAMPING + 6 * a + b] * rate[b]
-            stored += 0.5 * elastic * x[a]
-            loss += damping * rate[a]
-            effort[a] = -elastic - damping
-        control.stored[0] += stored
-        control.power[1] += loss
-        # the rotation vector's rates are no longer needed: their place takes the torque
-        tangent_product(x[3:6], effort[3:6], True, rate[0:3])
-        f0 = A[0, 0] * effort[0] + A[0, 1] * effort[1] + A[0, 2] * effort[2]
-        f1 = A[1, 0] * effort[0] + A[1, 1] * effort[1] + A[1, 2] * effort[2]
-        f2 = A[2, 0] * effort[0] + A[2, 1] * effort[1] + A[2, 2] * effort[2]
-        m0 = A[0, 0] * rate[0] + A[0, 1] * rate[1] + A[0, 2] * rate[2]
-        m1 = A[1, 0] * rate[0] + A[1, 1] * rate[1] + A[1, 2] * rate[2]
-        m2 = A[2, 0] * rate[0] + A[2, 1] * rate[1] + A[2, 2] * rate[2]
-        power = add_marker_force(bodies, markers, j, f0, f1, f2) + add_torque(bodies, markers.body[j], m0, m1, m2)
-        # the first body gets the counter-force at its own marker, and the moment of the offset d
-        power += add_marker_force(bodies, markers, i, -f0, -f1, -f2)
-        t0, t1, t2 = m0 + d1 * f2 - d2 * f1, m1 + d2 * f0 - d0 * f2, m2 + d0 * f1 - d1 * f0
-        power += add_torque(bodies, markers.body[i], -t0, -t1, -t2)
-        if out != NONE:
-            for a in range(3):
-                record.outputs.value[out + 2 + a] = effort[a]
-                record.outputs.value[out + 5 + a] = rate[a]
-            record.outputs.value[out] = np.sqrt(f0 * f0 + f1 * f1 + f2 * f2)
-            record.outputs.value[out + 1] = power
-    return OK
+            value[out + 2 + a], value[out + 5 + a] = effort[a], rate[a]
+        value[out], value[out + 1] = np.sqrt(dot(force, force)), power
 
 
 def add_bushing(builder: SystemBuilder, force: Bushing) -> None:

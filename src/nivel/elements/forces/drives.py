@@ -12,16 +12,15 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 from pydantic import BeforeValidator
 
-from nivel.elements.forces.shafts import between_flanks
+from nivel.elements.forces.shafts import with_play
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, is_angle, of_effort
-from nivel.elements.rows import Row
+from nivel.elements.rows import Row, element
 from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import absolute, real, tanh
-from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import NUMBER, evaluate_function, table_value
-from nivel.kernels.record.hook import Family, family
+from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Checked, Problem, superfluous
@@ -194,10 +193,9 @@ def clipped(x, limit):
 
 
 @stage
-def winding(machine, k, command, omega):
+def winding(machine, index, n, command, omega):
     """(current, voltage, power of the magnetic field) of a winding at a voltage."""
     elements = record_at(machine).elements
-    n, index = elements.number[k], elements.columns[k]
     u, limit = clipped(command, n[DriveRow.VOLTAGE_LIMIT]), n[DriveRow.LIMIT]
     if index[DriveRow.STATE] == NONE:
         i = clipped((u - n[DriveRow.CONSTANT] * omega) / n[DriveRow.RESISTANCE], limit)
@@ -216,12 +214,10 @@ def winding(machine, k, command, omega):
 
 
 @stage
-def current_loop(machine, k, command, omega):
+def current_loop(machine, index, n, command, omega):
     """(current, voltage) of a motor whose torque follows command / gear within its limits; without a torque constant, as if that were 1."""
     record = record_at(machine)
-    elements = record.elements
-    n, index = elements.number[k], elements.columns[k]
-    limit = n[DriveRow.LIMIT]
+    elements, limit = record.elements, n[DriveRow.LIMIT]
     if index[DriveRow.CURVE] != NONE:
         limit, _, _ = table_value(record.functions, index[DriveRow.CURVE], absolute(omega))
     torque = clipped(command / n[DriveRow.GEAR], limit)
@@ -233,13 +229,12 @@ def current_loop(machine, k, command, omega):
 
 
 @stage
-def shaft_speed(machine, k):
+def shaft_speed(machine, index, n):
     """Speed of the shaft: that of its rotor, or of the coordinate through the gear."""
     record = record_at(machine)
-    index = record.elements.columns[k]
     if index[DriveRow.SPEED] != NONE:
         return record.elements.state[index[DriveRow.SPEED]]
-    return record.elements.number[k, DriveRow.GEAR] * record.coordinates.rate[index[DriveRow.COORDINATE]]
+    return n[DriveRow.GEAR] * record.coordinates.rate[index[DriveRow.COORDINATE]]
 
 
 @stage
@@ -253,41 +248,32 @@ def transmit(machine, k, torque, omega):
     twist = elements.state[index[DriveRow.TWIST]]
     rate = omega / n[DriveRow.GEAR] - record.coordinates.rate[index[DriveRow.COORDINATE]]
     stiffness, damping, play = n[DriveRow.GEAR_STIFFNESS], n[DriveRow.GEAR_DAMPING], n[DriveRow.PLAY]
-    if play == 0.0:
-        elastic = stiffness * twist
-        effort, stored = elastic + damping * rate, 0.5 * elastic * twist
-    else:
-        effort, elastic, stored = between_flanks(elements, k, twist, rate, stiffness, damping, play, followed)
+    effort, elastic, stored = with_play(elements, k, twist, rate, stiffness, damping, play, followed)
     elements.state_rate[index[DriveRow.TWIST]] += rate
     elements.state_rate[index[DriveRow.SPEED]] += (torque - effort / n[DriveRow.GEAR]) / n[DriveRow.ROTOR_INERTIA]
     record.control.stored[0] += 0.5 * n[DriveRow.ROTOR_INERTIA] * omega * omega + stored
     return effort, (effort - elastic) * rate
 
 
-@family
-def drive(machine, number, t):
-    """Currents, torques and efforts of all drives."""
+@element
+def drive(machine, k, index, n, t):
+    """Current, torque and effort of a drive."""
     record = record_at(machine)
-    elements, control, out = record.elements, record.control, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        n, index = elements.number[k], elements.columns[k]
-        omega = shaft_speed(machine, k)
-        command = evaluate_function(machine, index[DriveRow.COMMAND], t)
-        if real(n[DriveRow.KIND]) == WINDING:
-            i, u = winding(machine, k, command, omega)
-        else:
-            i, u = current_loop(machine, k, command, omega)
-        torque = n[DriveRow.CONSTANT] * i
-        rubbing = n[DriveRow.FRICTION_TORQUE] * tanh(omega / n[DriveRow.TRANSITION_SPEED]) + n[DriveRow.VISCOUS] * omega
-        effort, lost = transmit(machine, k, torque - rubbing, omega)
-        loss = n[DriveRow.RESISTANCE] * i * i + rubbing * omega + lost
-        control.power[0] += u * i
-        control.power[1] += loss
-        first = np.int64(index[DriveRow.OUTPUT])
-        out[first], out[first + 1] = effort, add_coordinate_force(machine, index[DriveRow.COORDINATE], effort)
-        out[first + 2], out[first + 3], out[first + 4], out[first + 5] = omega, torque, i, u
-        out[first + 6], out[first + 7] = u * i, loss
-    return OK
+    control, out, first = record.control, record.outputs.value, np.int64(index[DriveRow.OUTPUT])
+    omega, command = shaft_speed(machine, index, n), evaluate_function(machine, index[DriveRow.COMMAND], t)
+    if real(n[DriveRow.KIND]) == WINDING:
+        i, u = winding(machine, index, n, command, omega)
+    else:
+        i, u = current_loop(machine, index, n, command, omega)
+    torque = n[DriveRow.CONSTANT] * i
+    rubbing = n[DriveRow.FRICTION_TORQUE] * tanh(omega / n[DriveRow.TRANSITION_SPEED]) + n[DriveRow.VISCOUS] * omega
+    effort, lost = transmit(machine, k, torque - rubbing, omega)
+    loss = n[DriveRow.RESISTANCE] * i * i + rubbing * omega + lost
+    control.power[0] += u * i
+    control.power[1] += loss
+    out[first], out[first + 1] = effort, add_coordinate_force(machine, index[DriveRow.COORDINATE], effort)
+    out[first + 2], out[first + 3], out[first + 4], out[first + 5] = omega, torque, i, u
+    out[first + 6], out[first + 7] = u * i, loss
 
 
 def add_dc_motor(builder: SystemBuilder, force: DcMotor) -> None:

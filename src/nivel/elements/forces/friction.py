@@ -7,13 +7,11 @@ from typing import ClassVar, Literal
 
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, is_angle, of_effort
-from nivel.elements.rows import Row
+from nivel.elements.rows import Row, element
 from nivel.elements.states import StateFact
 from nivel.kernels.bodies.coordinate import ALONG, CROSS_SECOND
 from nivel.kernels.bodies.patch_coordinate import PATCH
-from nivel.kernels.core.status import OK
 from nivel.kernels.elements import friction
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import Contact, SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
@@ -153,17 +151,14 @@ class WorkRow(Row):
     power: int
 
 
-@family
-def rub_off(machine, number, t):
-    """Report the work of each contact, and add to its rate: these elements come last."""
+@element
+def rub_off(machine, index, n, t):
+    """Report the work of a contact, and add to its rate: these elements come last."""
     record = record_at(machine)
     elements, out = record.elements, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index = elements.columns[k]
-        out[index[WorkRow.OUTPUT]] = elements.state[index[WorkRow.STATE]]
-        if index[WorkRow.POWER] != NONE:
-            elements.state_rate[index[WorkRow.STATE]] += out[index[WorkRow.POWER]]
-    return OK
+    out[index[WorkRow.OUTPUT]] = elements.state[index[WorkRow.STATE]]
+    if index[WorkRow.POWER] != NONE:
+        elements.state_rate[index[WorkRow.STATE]] += out[index[WorkRow.POWER]]
 
 
 def add_friction_work(builder: SystemBuilder, name: str, power: int) -> int:

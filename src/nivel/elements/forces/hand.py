@@ -11,12 +11,13 @@ from pydantic import BeforeValidator
 
 from nivel.elements.kind import Kind
 from nivel.elements.output import add_outputs, of_force
-from nivel.elements.rows import Row, several
+from nivel.elements.rows import Row, element, several
 from nivel.elements.states import Coupled
 from nivel.kernels.algebra.analytic import real
-from nivel.kernels.core.status import OK
+from nivel.kernels.algebra.spatial import dot
+from nivel.kernels.algebra.vectors import minus, plus, times, turned
+from nivel.kernels.forces.wrench import add_force_at, velocity_at
 from nivel.kernels.record.function import evaluate_function
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem
@@ -25,6 +26,7 @@ from nivel.machine.core.element import ForceElement
 from nivel.machine.given import Field, OneNumber
 from nivel.machine.laws.time_function import OneFunction, ThreeFunctions, varying
 from nivel.machine.units.quantity import ANY, Quantity, listed
+from nivel.native.function import stage
 
 Varied = Annotated[OneFunction, varying(ANY)]
 Place = Annotated[OneFunction, varying("length")]
@@ -70,46 +72,34 @@ class HandRow(Row):
     damper: float
 
 
-@family
-def apply(machine, number, t):
+@stage
+def place_of(machine, functions, t):
+    """The vector whose components are three functions."""
+    return (
+        evaluate_function(machine, functions[0], t),
+        evaluate_function(machine, functions[1], t),
+        evaluate_function(machine, functions[2], t),
+    )
+
+
+@element
+def apply(machine, index, n, t):
     """m pull (ω² (towards - p) - 2 ζ ω ṗ) at p = R + A u; its power counts as work from outside."""
     record = record_at(machine)
-    bodies, elements, out = record.bodies, record.elements, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        first = index[HandRow.OUTPUT]
-        out[first] = out[first + 1] = 0.0
-        pull = evaluate_function(machine, index[HandRow.PULL], t)
-        chosen = np.floor(real(evaluate_function(machine, index[HandRow.BODY], t)) + 0.5)
-        if real(pull) == 0.0 or not 0.0 <= chosen < bodies.mass.shape[0]:
-            continue
-        b = np.int64(chosen)
-        A, R, V, w = bodies.A[b], bodies.R[b], bodies.Rdot[b], bodies.omega[b]
-        x = evaluate_function(machine, index[HandRow.POINT], t)
-        y = evaluate_function(machine, index[HandRow.POINT + 1], t)
-        z = evaluate_function(machine, index[HandRow.POINT + 2], t)
-        u0 = A[0, 0] * x + A[0, 1] * y + A[0, 2] * z
-        u1 = A[1, 0] * x + A[1, 1] * y + A[1, 2] * z
-        u2 = A[2, 0] * x + A[2, 1] * y + A[2, 2] * z
-        v0, v1, v2 = V[0] + w[1] * u2 - w[2] * u1, V[1] + w[2] * u0 - w[0] * u2, V[2] + w[0] * u1 - w[1] * u0
-        x = evaluate_function(machine, index[HandRow.TOWARDS], t) - R[0] - u0
-        y = evaluate_function(machine, index[HandRow.TOWARDS + 1], t) - R[1] - u1
-        z = evaluate_function(machine, index[HandRow.TOWARDS + 2], t) - R[2] - u2
-        strength = pull * bodies.mass[b]
-        f0 = strength * (n[HandRow.SPRING] * x - n[HandRow.DAMPER] * v0)
-        f1 = strength * (n[HandRow.SPRING] * y - n[HandRow.DAMPER] * v1)
-        f2 = strength * (n[HandRow.SPRING] * z - n[HandRow.DAMPER] * v2)
-        F = bodies.wrench[b]
-        F[0] += f0
-        F[1] += f1
-        F[2] += f2
-        F[3] += u1 * f2 - u2 * f1
-        F[4] += u2 * f0 - u0 * f2
-        F[5] += u0 * f1 - u1 * f0
-        power = f0 * v0 + f1 * v1 + f2 * v2
-        out[first], out[first + 1] = np.sqrt(f0 * f0 + f1 * f1 + f2 * f2), power
-        record.control.power[0] += power
-    return OK
+    bodies, out, first = record.bodies, record.outputs.value, index[HandRow.OUTPUT]
+    out[first] = out[first + 1] = 0.0
+    pull = evaluate_function(machine, index[HandRow.PULL], t)
+    chosen = np.floor(real(evaluate_function(machine, index[HandRow.BODY], t)) + 0.5)
+    if real(pull) == 0.0 or not 0.0 <= chosen < bodies.mass.shape[0]:
+        return
+    b = np.int64(chosen)
+    p = plus(bodies.R[b], turned(bodies.A[b], place_of(machine, index[HandRow.POINT :], t)))
+    wish, v = minus(place_of(machine, index[HandRow.TOWARDS :], t), p), velocity_at(bodies, b, p)
+    force = minus(times(n[HandRow.SPRING], wish), times(n[HandRow.DAMPER], v))
+    force = times(pull * bodies.mass[b], force)
+    power = add_force_at(bodies, b, p, force)
+    out[first], out[first + 1] = np.sqrt(dot(force, force)), power
+    record.control.power[0] += power
 
 
 def add(builder: SystemBuilder, hand: Hand) -> None:

@@ -21,29 +21,25 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.elements.forces.wound_ropes import (
-    CENTRE,
     USED,
     UX,
     UY,
     RopeRow,
-    X,
-    Y,
-    Z,
     arc_at,
     at,
+    centre_of,
     find_parts,
     lay_out,
     let_off,
     next_touched,
     paid_out,
-    tangent,
-    velocity_of,
+    way_between,
 )
+from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
-from nivel.kernels.algebra.spatial import cross
-from nivel.kernels.core.status import OK
-from nivel.kernels.forces.wrench import add_force_at, add_torque
-from nivel.kernels.record.hook import family
+from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.algebra.vectors import minus, opposite, plus, seen, times, turned
+from nivel.kernels.forces.wrench import add_force_at, add_torque, velocity_at
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf, stage
 
@@ -54,35 +50,16 @@ PER_LENGTH, BEHIND = 0, 1
 
 
 @leaf
-def gradient(a, b, on_part, on_first, on_last, rise):
-    """∂/∂d of w L + arcs at both ends, each with its weight, in the plane (x, y) and along the axis; and L.
-
-    `rise`: weight of the mean height of L as the free part turns about the axis.
-    """
-    dx, dy, z, rho = b[X] - a[X], b[Y] - a[Y], b[Z] - a[Z], b[USED] - a[USED]
-    square = dx * dx + dy * dy
-    length, _, _ = tangent(dx, dy, rho)
-    whole = np.sqrt(length * length + z * z)
-    turned = on_last * b[USED] - on_first * a[USED] - rise * whole
-    fx = on_part * dx / whole - turned * (rho * dx / length - dy) / square
-    fy = on_part * dy / whole - turned * (rho * dy / length + dx) / square
-    return fx, fy, on_part * z / whole, whole
-
-
-@leaf
 def height(bodies, own):
     """Height of a place times g [m²/s²]."""
-    g = bodies.gravity
-    return -(g[0] * own[CENTRE] + g[1] * own[CENTRE + 1] + g[2] * own[CENTRE + 2])
+    return -dot(bodies.gravity, centre_of(own))
 
 
 @leaf
 def slopes(bodies, A, own):
     """Rise of h along the free part that leaves a place, in the plane of the axis, and along u × n, from the centre to the rope [m/s²]."""
-    g, ux, uy = bodies.gravity, own[UX], own[UY]
-    gx = -(g[0] * A[0, 0] + g[1] * A[1, 0] + g[2] * A[2, 0])
-    gy = -(g[0] * A[0, 1] + g[1] * A[1, 1] + g[2] * A[2, 1])
-    return ux * gx + uy * gy, uy * gx - ux * gy
+    gx, gy, _ = opposite(seen(A, bodies.gravity))
+    return own[UX] * gx + own[UY] * gy, own[UY] * gx - own[UX] * gy
 
 
 @leaf
@@ -98,31 +75,23 @@ def rate_along(machine, k, n, before):
     bodies, markers, elements = record.bodies, record.markers, record.elements
     index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, RopeRow.COUNT])
     p, A = np.int64(index[RopeRow.ALONG + count + PAST]), markers.A[index[RopeRow.AXIS]]
-    w = bodies.omega[markers.body[index[RopeRow.AXIS]]]
-    turning = cross((w[0], w[1], w[2]), n)
-    rate, j = 0.0 * numbers[RopeRow.STIFFNESS], 0
+    carrier, rate, j = markers.body[index[RopeRow.AXIS]], 0.0 * numbers[RopeRow.STIFFNESS], 0
     while j < count - 1:
         i = next_touched(numbers, j, count)
-        a = numbers[at(j) : at(j + 1)]
-        b = numbers[at(i) : at(i + 1)]
+        a, b = numbers[at(j) : at(j + 1)], numbers[at(i) : at(i + 1)]
         part = 1.0 if (i <= p) == before else 0.0
         first = 1.0 if is_before(j, p) == before else 0.0
         last = 1.0 if is_before(i, p) == before else 0.0
-        fx, fy, fz, _ = gradient(a, b, part, first, last, 0.0)
-        dx, dy, z = b[X] - a[X], b[Y] - a[Y], b[Z] - a[Z]
-        tx, ty = fz * dx - z * fx, fz * dy - z * fy
-        v = velocity_of(bodies, markers.body[index[RopeRow.ALONG + i]], b)
-        u = velocity_of(bodies, markers.body[index[RopeRow.ALONG + j]], a)
-        for m in range(3):
-            rate += (A[m, 0] * fx + A[m, 1] * fy + fz * n[m]) * (v[m] - u[m])
-            rate += (A[m, 0] * tx + A[m, 1] * ty) * turning[m]
+        f, moment, _ = way_between(A, a, b, part, first, last, 0.0)
+        v = velocity_at(bodies, markers.body[index[RopeRow.ALONG + i]], centre_of(b))
+        u = velocity_at(bodies, markers.body[index[RopeRow.ALONG + j]], centre_of(a))
+        rate += dot(f, minus(v, u)) - dot(moment, bodies.omega[carrier])
         j = i
     for end in range(2):
         j = 0 if end == 0 else count - 1
         if is_before(j, p) == before:
-            used = numbers[at(j) + USED]
-            r, w = -used if end == 0 else used, bodies.omega[markers.body[index[RopeRow.ALONG + j]]]
-            rate += r * (w[0] * n[0] + w[1] * n[1] + w[2] * n[2])
+            used, drum = numbers[at(j) + USED], markers.body[index[RopeRow.ALONG + j]]
+            rate += (-used if end == 0 else used) * dot(bodies.omega[drum], n)
     return rate
 
 
@@ -159,7 +128,7 @@ def ways(machine, k):
         i = next_touched(numbers, j, count) if j < count - 1 else count
         if i < count:
             b = numbers[at(i) : at(i + 1)]
-            _, _, _, whole = gradient(own, b, 0.0, 0.0, 0.0, 0.0)
+            whole = way_between(A, own, b, 0.0, 0.0, 0.0, 0.0)[2]
             ha, hb = h + own[USED] * out, height(bodies, b) + b[USED] * out
             lower = ha if real(ha) < real(hb) else hb
             heavy += whole * 0.5 * (ha + hb)
@@ -181,12 +150,8 @@ def act(machine, k, n, ahead, behind, density, mean):
     record = record_at(machine)
     bodies, markers, elements = record.bodies, record.markers, record.elements
     index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, RopeRow.COUNT])
-    p, A, carrier = (
-        np.int64(index[RopeRow.ALONG + count + PAST]),
-        markers.A[index[RopeRow.AXIS]],
-        markers.body[index[RopeRow.AXIS]],
-    )
-    g, before, j = bodies.gravity, 0, 0
+    p, A = np.int64(index[RopeRow.ALONG + count + PAST]), markers.A[index[RopeRow.AXIS]]
+    carrier, gravity, before, j = markers.body[index[RopeRow.AXIS]], bodies.gravity, 0, 0
     while j < count:
         a = numbers[at(j) : at(j + 1)]
         ba, ha, along, out = markers.body[index[RopeRow.ALONG + j]], height(bodies, a) - mean, 0.0 * mean, 0.0 * mean
@@ -195,11 +160,9 @@ def act(machine, k, n, ahead, behind, density, mean):
         on_first = (ahead if is_before(j, p) else behind) + density * (ha + a[USED] * out if j > 0 else ha)
         if real(a[USED]) != 0.0:
             r = a[USED] if real(a[USED]) > 0.0 else -a[USED]
-            m = density * r * arc_at(machine, k, j, before)
-            add_force_at(bodies, ba, a[CENTRE : CENTRE + 3], m * g[0], m * g[1], m * g[2])
+            add_force_at(bodies, ba, centre_of(a), times(density * r * arc_at(machine, k, j, before), gravity))
         if j in (0, count - 1):
-            r = on_first * (-a[USED] if j == 0 else a[USED])
-            add_torque(bodies, ba, -r * n[0], -r * n[1], -r * n[2])
+            add_torque(bodies, ba, times(on_first * (a[USED] if j == 0 else -a[USED]), n))
         i = next_touched(numbers, j, count) if j < count - 1 else count
         if i < count:
             b = numbers[at(i) : at(i + 1)]
@@ -207,35 +170,20 @@ def act(machine, k, n, ahead, behind, density, mean):
             on_last = (ahead if is_before(i, p) else behind) + density * (hb + b[USED] * out if i < count - 1 else hb)
             both = 0.5 * (a[USED] + b[USED])
             on_part = (ahead if i <= p else behind) + density * (0.5 * (ha + hb) + both * out)
-            fx, fy, fz, whole = gradient(a, b, on_part, on_first, on_last, density * both * along)
-            dx, dy, z = b[X] - a[X], b[Y] - a[Y], b[Z] - a[Z]
-            gx, gy = A[0, 0] * fx + A[0, 1] * fy + fz * n[0], A[1, 0] * fx + A[1, 1] * fy + fz * n[1]
-            gz, m = A[2, 0] * fx + A[2, 1] * fy + fz * n[2], 0.5 * density * whole
-            add_force_at(bodies, ba, a[CENTRE : CENTRE + 3], gx + m * g[0], gy + m * g[1], gz + m * g[2])
-            add_force_at(bodies, bb, b[CENTRE : CENTRE + 3], m * g[0] - gx, m * g[1] - gy, m * g[2] - gz)
-            tx, ty = fz * dx - z * fx, fz * dy - z * fy
-            tilt = A[0, 0] * tx + A[0, 1] * ty, A[1, 0] * tx + A[1, 1] * ty, A[2, 0] * tx + A[2, 1] * ty
-            c = cross(n, tilt)
-            add_torque(bodies, carrier, -c[0], -c[1], -c[2])
+            f, moment, whole = way_between(A, a, b, on_part, on_first, on_last, density * both * along)
+            weight = times(0.5 * density * whole, gravity)
+            add_force_at(bodies, ba, centre_of(a), plus(weight, f))
+            add_force_at(bodies, bb, centre_of(b), minus(weight, f))
+            add_torque(bodies, carrier, moment)
             # weight beside the centres tilts the wheels
             off, ahead_of = whole * both, 0.0 * both
             if j > 0:
                 ahead_of -= a[USED] * a[USED]
             if i < count - 1:
                 ahead_of += b[USED] * b[USED]
-            sx, sy = off * a[UY] + ahead_of * a[UX], ahead_of * a[UY] - off * a[UX]
-            c = cross(
-                (A[0, 0] * sx + A[0, 1] * sy, A[1, 0] * sx + A[1, 1] * sy, A[2, 0] * sx + A[2, 1] * sy),
-                (g[0], g[1], g[2]),
-            )
-            about = c[0] * n[0] + c[1] * n[1] + c[2] * n[2]
-            add_torque(
-                bodies,
-                carrier,
-                density * (c[0] - about * n[0]),
-                density * (c[1] - about * n[1]),
-                density * (c[2] - about * n[2]),
-            )
+            lever = off * a[UY] + ahead_of * a[UX], ahead_of * a[UY] - off * a[UX], 0.0 * off
+            c = cross(turned(A, lever), gravity)
+            add_torque(bodies, carrier, times(density, minus(c, times(dot(c, n), n))))
         before, j = j, i
 
 
@@ -258,45 +206,39 @@ def least_of(density, low, mean):
     return least if real(least) < 0.0 else 0.0 * least
 
 
-@family
-def apply(machine, number, t):
+@element
+def apply(machine, k, index, n, t):
     """Tensions of both halves, weight, and the motion of the mass along the way; its kinetic energy is among what is stored."""
     record = record_at(machine)
     bodies, elements, control, out = record.bodies, record.elements, record.control, record.outputs.value
-    followed = record.watched.followed[0]
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, RopeRow.COUNT])
-        own, base = RopeRow.ALONG + count, at(count)
-        n = lay_out(machine, k)
-        find_parts(numbers, count)
-        if let_off(machine, k):
-            find_parts(numbers, count)
-        first, second, heavy, low, other_low = ways(machine, k)
-        travel, run = elements.state[index[own + TRAVEL]], elements.state[index[own + RUN]]
-        length, speed = paid_out(machine, k, t, 0.0 * first)
-        ahead, its_rate = first + travel - (length - numbers[base + BEHIND]), rate_along(machine, k, n, True)
-        behind, other_rate = second - travel - numbers[base + BEHIND], rate_along(machine, k, n, False)
-        per_length, way = numbers[base + PER_LENGTH], first + second
-        mass, mean = per_length * length, heavy / way
-        least, other_least = least_of(mass / way, low, mean), least_of(mass / way, other_low, mean)
-        one, one_elastic, one_stored = tension_of(
-            numbers[RopeRow.STIFFNESS], numbers[RopeRow.DAMPING], ahead, its_rate + run - speed, least
-        )
-        two, two_elastic, two_stored = tension_of(
-            numbers[RopeRow.STIFFNESS], numbers[RopeRow.DAMPING], behind, other_rate - run, other_least
-        )
-        elements.state_rate[index[own + TRAVEL]] += run
-        elements.state_rate[index[own + RUN]] += (two - one) / mass
-        act(machine, k, n, one, two, mass / way, mean)
-        control.stored[0] += one_stored + two_stored + 0.5 * mass * run * run + mass * mean
-        # the winch pulls, and feeds rope that runs and is high
-        control.power[0] += speed * (per_length * (0.5 * run * run + mean) - one)
-        control.power[1] += (one - one_elastic) * (its_rate + run - speed) + (two - two_elastic) * (other_rate - run)
-        elements.depth[k, 0] = ahead + behind
-        if followed == 1:
-            elements.depth_rate[k, 0] = its_rate + other_rate - speed
-        output, last = index[RopeRow.OUTPUT], numbers[at(count - 1) : at(count)]
-        out[output] = one + mass / way * (height(bodies, numbers[at(0) : at(1)]) - mean)
-        out[output + 1], out[output + 2] = -one * its_rate - two * other_rate, ahead + behind
-        out[output + 3] = two + mass / way * (height(bodies, last) - mean)
-    return OK
+    count = np.int64(index[RopeRow.COUNT])
+    own, base = RopeRow.ALONG + count, at(count)
+    axle = lay_out(machine, k)
+    find_parts(n, count)
+    if let_off(machine, k):
+        find_parts(n, count)
+    first, second, heavy, low, other_low = ways(machine, k)
+    travel, run = elements.state[index[own + TRAVEL]], elements.state[index[own + RUN]]
+    length, speed = paid_out(machine, k, t, 0.0 * first)
+    ahead, its_rate = first + travel - (length - n[base + BEHIND]), rate_along(machine, k, axle, True)
+    behind, other_rate = second - travel - n[base + BEHIND], rate_along(machine, k, axle, False)
+    per_length, way = n[base + PER_LENGTH], first + second
+    mass, mean = per_length * length, heavy / way
+    least, other_least = least_of(mass / way, low, mean), least_of(mass / way, other_low, mean)
+    stiffness, damping = n[RopeRow.STIFFNESS], n[RopeRow.DAMPING]
+    one, one_elastic, one_stored = tension_of(stiffness, damping, ahead, its_rate + run - speed, least)
+    two, two_elastic, two_stored = tension_of(stiffness, damping, behind, other_rate - run, other_least)
+    elements.state_rate[index[own + TRAVEL]] += run
+    elements.state_rate[index[own + RUN]] += (two - one) / mass
+    act(machine, k, axle, one, two, mass / way, mean)
+    control.stored[0] += one_stored + two_stored + 0.5 * mass * run * run + mass * mean
+    # the winch pulls, and feeds rope that runs and is high
+    control.power[0] += speed * (per_length * (0.5 * run * run + mean) - one)
+    control.power[1] += (one - one_elastic) * (its_rate + run - speed) + (two - two_elastic) * (other_rate - run)
+    elements.depth[k, 0] = ahead + behind
+    if record.watched.followed[0] == 1:
+        elements.depth_rate[k, 0] = its_rate + other_rate - speed
+    output, last = index[RopeRow.OUTPUT], n[at(count - 1) : at(count)]
+    out[output] = one + mass / way * (height(bodies, n[at(0) : at(1)]) - mean)
+    out[output + 1], out[output + 2] = -one * its_rate - two * other_rate, ahead + behind
+    out[output + 3] = two + mass / way * (height(bodies, last) - mean)

@@ -12,12 +12,11 @@ from pydantic import BeforeValidator
 from nivel.elements.forces.actuators import MotorRow, drive
 from nivel.elements.kind import Kind
 from nivel.elements.output import add_outputs, of_force, of_value
-from nivel.elements.rows import Row
+from nivel.elements.rows import Row, element
+from nivel.kernels.algebra.vectors import opposite, turned
 from nivel.kernels.bodies.coordinate import DISTANCE
-from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_marker_force, add_torque
 from nivel.kernels.record.function import COORDINATE, RATE, evaluate_function
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
 from nivel.machine.core.between import Between
@@ -120,36 +119,25 @@ class LoadRow(Row):
     length: int = NONE
 
 
-@family
-def push(machine, number, t):
-    """Forces, torques, their counter-forces and power."""
+@element
+def push(machine, index, n, t):
+    """A force or torque, its counter-force and power."""
     record = record_at(machine)
-    bodies, markers, elements = record.bodies, record.markers, record.elements
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index = elements.columns[k]
-        marker, axes = index[LoadRow.MARKER], index[LoadRow.AXES]
-        x = evaluate_function(machine, index[LoadRow.X], t)
-        y = evaluate_function(machine, index[LoadRow.Y], t)
-        z = evaluate_function(machine, index[LoadRow.Z], t)
-        out = index[LoadRow.OUTPUT]
-        record.outputs.value[out] = np.sqrt(x * x + y * y + z * z)
-        if axes != NONE:
-            A = markers.A[axes]
-            x, y, z = (
-                A[0, 0] * x + A[0, 1] * y + A[0, 2] * z,
-                A[1, 0] * x + A[1, 1] * y + A[1, 2] * z,
-                A[2, 0] * x + A[2, 1] * y + A[2, 2] * z,
-            )
-        body = markers.body[marker]
-        forced = index[LoadRow.KIND] == FORCE
-        power = add_marker_force(bodies, markers, marker, x, y, z) if forced else add_torque(bodies, body, x, y, z)
-        if index[LoadRow.COUNTER] != NONE:
-            power += add_marker_force(bodies, markers, index[LoadRow.COUNTER], -x, -y, -z)
-            record.outputs.value[out + 2] = record.coordinates.value[index[LoadRow.LENGTH]]
-            record.outputs.value[out + 3] = record.coordinates.rate[index[LoadRow.LENGTH]]
-        record.outputs.value[out + 1] = power
-        record.control.power[0] += power
-    return OK
+    bodies, markers, out, first = record.bodies, record.markers, record.outputs.value, index[LoadRow.OUTPUT]
+    x = evaluate_function(machine, index[LoadRow.X], t)
+    y = evaluate_function(machine, index[LoadRow.Y], t)
+    z = evaluate_function(machine, index[LoadRow.Z], t)
+    out[first] = np.sqrt(x * x + y * y + z * z)
+    if index[LoadRow.AXES] != NONE:
+        x, y, z = turned(markers.A[index[LoadRow.AXES]], (x, y, z))
+    m, load, pushes = index[LoadRow.MARKER], (x, y, z), index[LoadRow.KIND] == FORCE
+    power = add_marker_force(bodies, markers, m, load) if pushes else add_torque(bodies, markers.body[m], load)
+    if index[LoadRow.COUNTER] != NONE:
+        power += add_marker_force(bodies, markers, index[LoadRow.COUNTER], opposite(load))
+        out[first + 2] = record.coordinates.value[index[LoadRow.LENGTH]]
+        out[first + 3] = record.coordinates.rate[index[LoadRow.LENGTH]]
+    out[first + 1] = power
+    record.control.power[0] += power
 
 
 def add_load(builder: SystemBuilder, force: PointForce | Torque) -> None:

@@ -13,12 +13,11 @@ from nivel.elements.forces import heavy_ropes, wound_ropes
 from nivel.elements.forces.wound_ropes import PART, WIDTH, RopeRow, paid_out, stick_and_slip, tangent, tension_in
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, of_force
+from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.errors import Fault, ModelError
 from nivel.kernels.bodies.coordinate import DISTANCE
-from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
 from nivel.lazy import dataclass
@@ -171,26 +170,22 @@ class Rope(BetweenMany):
                 yield Problem((name, k), f"{said} follows itself; the rope goes from one to another")
 
 
-@family
-def apply(machine, number, t):
-    """Tensions of all ropes from point to point; s = Σ distances."""
+@element
+def apply(machine, k, index, n, t):
+    """Tension of a rope from point to point; s = Σ distances."""
     record = record_at(machine)
-    elements, coordinates, out = record.elements, record.coordinates, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index = elements.columns[k]
-        length, speed = paid_out(machine, k, t, 0.0 * coordinates.value[index[RopeRow.ALONG]])
-        stretch, rate = -length, -speed
-        for j in range(np.int64(index[RopeRow.COUNT])):
-            q = index[RopeRow.ALONG + j]
-            stretch += coordinates.value[q]
-            rate += coordinates.rate[q]
-        tension = tension_in(machine, k, stretch, rate, speed)
-        power = 0.0 * stretch
-        for j in range(np.int64(index[RopeRow.COUNT])):
-            power += add_coordinate_force(machine, index[RopeRow.ALONG + j], -tension)
-        first = index[RopeRow.OUTPUT]
-        out[first], out[first + 1], out[first + 2] = tension, power, stretch
-    return OK
+    coordinates, out, first = record.coordinates, record.outputs.value, index[RopeRow.OUTPUT]
+    length, speed = paid_out(machine, k, t, 0.0 * coordinates.value[index[RopeRow.ALONG]])
+    stretch, rate = -length, -speed
+    for j in range(np.int64(index[RopeRow.COUNT])):
+        q = index[RopeRow.ALONG + j]
+        stretch += coordinates.value[q]
+        rate += coordinates.rate[q]
+    tension = tension_in(machine, k, stretch, rate, speed)
+    power = 0.0 * stretch
+    for j in range(np.int64(index[RopeRow.COUNT])):
+        power += add_coordinate_force(machine, index[RopeRow.ALONG + j], -tension)
+    out[first], out[first + 1], out[first + 2] = tension, power, stretch
 
 
 def add(builder: SystemBuilder, rope: Rope) -> None:

@@ -18,11 +18,9 @@ import numpy as np
 
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, is_angle, of_effort, of_force, of_value
-from nivel.elements.rows import Row
+from nivel.elements.rows import Row, element
 from nivel.kernels.algebra.analytic import maximum, minimum, real
-from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Problem, superfluous
@@ -184,8 +182,12 @@ def flank(depth, rate, stiffness, damping, remembered, followed):
 
 
 @stage
-def between_flanks(elements, k, twist, rate, stiffness, damping, play, followed):
-    """(effort, elastic effort, stored energy) of element `k` with half a play on both sides of no twist; it remembers two touches."""
+def with_play(elements, k, twist, rate, stiffness, damping, play, followed):
+    """(effort, elastic effort, stored energy) of element `k`: k c + d ċ, or with half a `play` on both sides of no twist, where it
+    remembers a touch of each flank."""
+    if play == 0.0:
+        elastic = stiffness * twist
+        return elastic + damping * rate, elastic, 0.5 * elastic * twist
     memory, proposal, depth = elements.memory[k], elements.proposal[k], elements.depth[k]
     depth[0], depth[1] = -play - twist, twist - play
     if followed == 1:
@@ -195,29 +197,19 @@ def between_flanks(elements, k, twist, rate, stiffness, damping, play, followed)
     return up - down, high - low, 0.5 * (low * depth[0] + high * depth[1])
 
 
-@family
-def twist_shaft(machine, number, t):
-    """Effort against the twist: k c + d ċ without play, that of the flanks with it."""
+@element
+def twist_shaft(machine, k, index, n, t):
+    """Effort against the twist."""
     record = record_at(machine)
-    elements, coordinates, control = record.elements, record.coordinates, record.control
-    followed = record.watched.followed[0]
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        n, q, out = elements.number[k], elements.columns[k, ShaftRow.COORDINATE], elements.columns[k, ShaftRow.OUTPUT]
-        twist, rate = coordinates.value[q] - n[ShaftRow.FREE], coordinates.rate[q]
-        if n[ShaftRow.PLAY] == 0.0:
-            elastic = n[ShaftRow.STIFFNESS] * twist
-            effort = elastic + n[ShaftRow.DAMPING] * rate
-            control.stored[0] += 0.5 * elastic * twist
-        else:
-            effort, elastic, stored = between_flanks(
-                elements, k, twist, rate, n[ShaftRow.STIFFNESS], n[ShaftRow.DAMPING], n[ShaftRow.PLAY], followed
-            )
-            control.stored[0] += stored
-        control.power[1] += (effort - elastic) * rate
-        record.outputs.value[out] = effort
-        record.outputs.value[out + 1] = add_coordinate_force(machine, q, -effort)
-        record.outputs.value[out + 2], record.outputs.value[out + 3] = twist, rate
-    return OK
+    elements, coordinates, control, out = record.elements, record.coordinates, record.control, record.outputs.value
+    q, first, play = index[ShaftRow.COORDINATE], index[ShaftRow.OUTPUT], n[ShaftRow.PLAY]
+    twist, rate = coordinates.value[q] - n[ShaftRow.FREE], coordinates.rate[q]
+    stiffness, damping, followed = n[ShaftRow.STIFFNESS], n[ShaftRow.DAMPING], record.watched.followed[0]
+    effort, elastic, stored = with_play(elements, k, twist, rate, stiffness, damping, play, followed)
+    control.stored[0] += stored
+    control.power[1] += (effort - elastic) * rate
+    out[first], out[first + 1] = effort, add_coordinate_force(machine, q, -effort)
+    out[first + 2], out[first + 3] = twist, rate
 
 
 class BeltRow(Row):
@@ -263,49 +255,41 @@ def tension(elastic, whole, remembered, held):
     return maximum(whole, 0.0) if real(elastic) > 0.0 else 0.0 * whole
 
 
-@family
-def pull_belt(machine, number, t):
-    """Efforts, slips and their power."""
+@element
+def pull_belt(machine, k, index, n, t):
+    """Effort, slip and their power."""
     record = record_at(machine)
     elements, coordinates, control, value = record.elements, record.coordinates, record.control, record.outputs.value
-    followed = record.watched.followed[0]
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        n, q, out = elements.number[k], elements.columns[k, BeltRow.COORDINATE], elements.columns[k, BeltRow.OUTPUT]
-        way, rate = coordinates.value[q], coordinates.rate[q]
-        stiffness, pretension = n[BeltRow.STIFFNESS], n[BeltRow.PRETENSION]
-        strained = way - elements.memory[k, SLIP]
-        z, stretching, slipping = strained, rate, 0.0 * rate
-        lag = n[BeltRow.DAMPING] / stiffness * rate
-        beyond, below = strained + lag - n[BeltRow.HIGH], n[BeltRow.LOW] - strained - lag
-        # what has slipped stands at the end itself, where the rate says whether it goes on
-        if n[BeltRow.HIGH] < np.inf and real(strained) > n[BeltRow.HIGH] - (
-            near(n[BeltRow.HIGH]) if real(rate) > 0.0 else 0.0
-        ):
-            z, stretching, slipping, beyond = n[BeltRow.HIGH] + 0.0 * rate, 0.0 * rate, rate, rate
-        elif n[BeltRow.LOW] > -np.inf and real(strained) < n[BeltRow.LOW] + (
-            near(n[BeltRow.LOW]) if real(rate) < 0.0 else 0.0
-        ):
-            z, stretching, slipping, below = n[BeltRow.LOW] + 0.0 * rate, 0.0 * rate, rate, -rate
-        elements.proposal[k, SLIP] = way - z
-        watch(elements, k, AT_HIGH, beyond)
-        watch(elements, k, AT_LOW, below)
-        y = stiffness * z + n[BeltRow.DAMPING] * stretching
-        y = minimum(maximum(y, stiffness * n[BeltRow.LOW]), stiffness * n[BeltRow.HIGH])
-        first, second = maximum(pretension + stiffness * z, 0.0), maximum(pretension - stiffness * z, 0.0)
-        held = followed == 1 and n[BeltRow.HIGH] == np.inf
-        pull = tension(pretension + stiffness * z, pretension + y, elements.memory[k, PULLS], held)
-        back = tension(pretension - stiffness * z, pretension - y, elements.memory[k, PULLS_BACK], held)
-        watch(elements, k, PULLS, minimum(pretension + stiffness * z, pretension + y))
-        watch(elements, k, PULLS_BACK, minimum(pretension - stiffness * z, pretension - y))
-        effort = pull - back
-        control.stored[0] += 0.5 * (first * first + second * second) / stiffness
-        control.power[1] += effort * rate - (first - second) * stretching
-        value[out] = effort if elements.columns[k, BeltRow.TENSIONS] == 1 else -effort
-        value[out + 1] = add_coordinate_force(machine, q, -effort)
-        value[out + 2], value[out + 3] = slipping, way - z
-        if elements.columns[k, BeltRow.TENSIONS] == 1:
-            value[out + 4], value[out + 5] = pull, back
-    return OK
+    q, out = index[BeltRow.COORDINATE], index[BeltRow.OUTPUT]
+    way, rate = coordinates.value[q], coordinates.rate[q]
+    stiffness, pretension, low, high = n[BeltRow.STIFFNESS], n[BeltRow.PRETENSION], n[BeltRow.LOW], n[BeltRow.HIGH]
+    strained = way - elements.memory[k, SLIP]
+    z, stretching, slipping = strained, rate, 0.0 * rate
+    lag = n[BeltRow.DAMPING] / stiffness * rate
+    beyond, below = strained + lag - high, low - strained - lag
+    # what has slipped stands at the end itself, where the rate says whether it goes on
+    if high < np.inf and real(strained) > high - (near(high) if real(rate) > 0.0 else 0.0):
+        z, stretching, slipping, beyond = high + 0.0 * rate, 0.0 * rate, rate, rate
+    elif low > -np.inf and real(strained) < low + (near(low) if real(rate) < 0.0 else 0.0):
+        z, stretching, slipping, below = low + 0.0 * rate, 0.0 * rate, rate, -rate
+    elements.proposal[k, SLIP] = way - z
+    watch(elements, k, AT_HIGH, beyond)
+    watch(elements, k, AT_LOW, below)
+    y = stiffness * z + n[BeltRow.DAMPING] * stretching
+    y = minimum(maximum(y, stiffness * low), stiffness * high)
+    first, second = maximum(pretension + stiffness * z, 0.0), maximum(pretension - stiffness * z, 0.0)
+    held = record.watched.followed[0] == 1 and high == np.inf
+    pull = tension(pretension + stiffness * z, pretension + y, elements.memory[k, PULLS], held)
+    back = tension(pretension - stiffness * z, pretension - y, elements.memory[k, PULLS_BACK], held)
+    watch(elements, k, PULLS, minimum(pretension + stiffness * z, pretension + y))
+    watch(elements, k, PULLS_BACK, minimum(pretension - stiffness * z, pretension - y))
+    effort = pull - back
+    control.stored[0] += 0.5 * (first * first + second * second) / stiffness
+    control.power[1] += effort * rate - (first - second) * stretching
+    value[out], value[out + 1] = -effort, add_coordinate_force(machine, q, -effort)
+    value[out + 2], value[out + 3] = slipping, way - z
+    if index[BeltRow.TENSIONS] == 1:
+        value[out], value[out + 4], value[out + 5] = effort, pull, back
 
 
 def difference(builder: SystemBuilder, force: DriveLine) -> tuple[int, bool]:

@@ -15,11 +15,9 @@ from pydantic import BeforeValidator
 
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, of_force
-from nivel.elements.rows import Row, several
+from nivel.elements.rows import Row, element, several
 from nivel.kernels.algebra.analytic import real
-from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_marker_force
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import record_at
 from nivel.known import SystemBuilder
 from nivel.machine.core.between import BetweenMany
@@ -232,28 +230,25 @@ def pull(r, numbers, i, x, y, z):
     return T, ex / length, ey / length, ez / length
 
 
-@family
-def meet(machine, number, t):
-    """Places of the nodes, and the tensions of their springs on the bodies."""
+@element
+def meet(machine, k, index, n, t):
+    """Place of the node, and the tensions of its springs on the bodies."""
     record = record_at(machine)
-    elements, markers, control, out = record.elements, record.markers, record.control, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, numbers = elements.columns[k], elements.number[k]
-        first, count = index[NodeRow.OUTPUT], np.int64(index[NodeRow.COUNT])
-        x0, y0, z0 = balance(machine, k)
-        x, y, z = refined(machine, k, x0, y0, z0)
-        power = 0.0 * x
-        for i in range(count):
-            m = index[NodeRow.FIRST + i]
-            T, ux, uy, uz = pull(markers.r[m], numbers, i, x, y, z)
-            power += add_marker_force(record.bodies, markers, m, T * ux, T * uy, T * uz)
-            control.stored[0] += 0.5 * T * T / numbers[NodeRow.SPRINGS + SPRING * i + STIFFNESS]
-            out[first + 5 + i] = T
-        out[first], out[first + 1] = out[first + 5], power
-        out[first + 2], out[first + 3], out[first + 4] = x, y, z
-        for i in range(3):
-            elements.proposal[k, i] = out[first + 2 + i] - numbers[NodeRow.PLACE + i]
-    return OK
+    markers, control, out = record.markers, record.control, record.outputs.value
+    first, proposal = index[NodeRow.OUTPUT], record.elements.proposal[k]
+    x0, y0, z0 = balance(machine, k)
+    x, y, z = refined(machine, k, x0, y0, z0)
+    power = 0.0 * x
+    for i in range(np.int64(index[NodeRow.COUNT])):
+        m = index[NodeRow.FIRST + i]
+        T, ux, uy, uz = pull(markers.r[m], n, i, x, y, z)
+        power += add_marker_force(record.bodies, markers, m, (T * ux, T * uy, T * uz))
+        control.stored[0] += 0.5 * T * T / n[NodeRow.SPRINGS + SPRING * i + STIFFNESS]
+        out[first + 5 + i] = T
+    out[first], out[first + 1] = out[first + 5], power
+    out[first + 2], out[first + 3], out[first + 4] = x, y, z
+    for i in range(3):
+        proposal[i] = out[first + 2 + i] - n[NodeRow.PLACE + i]
 
 
 def add_spring_node(builder: SystemBuilder, force: SpringNode) -> None:

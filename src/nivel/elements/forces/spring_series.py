@@ -19,13 +19,11 @@ from pydantic import BeforeValidator
 
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, of_force, of_value
-from nivel.elements.rows import Row, several
+from nivel.elements.rows import Row, element, several
 from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.bodies.coordinate import DISTANCE
-from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
 from nivel.machine.core.between import Between
@@ -106,14 +104,13 @@ class SeriesRow(Row):
 
 
 @stage
-def tension_of(machine, k, length, rate):
-    """Tension of element k; the length of its last part, where all have dampers, else 0."""
-    record = record_at(machine)
-    index, numbers, states = record.elements.columns[k], record.elements.number[k], record.elements.state
+def tension_of(machine, index, n, length, rate):
+    """Tension of an element; the length of its last part, where all have dampers, else 0."""
+    states = record_at(machine).elements.state
     left, given, soft, loose = 1.0 * length, 1.0 * rate, 0.0 * length, 0.0 * length
     count = np.int64(index[SeriesRow.COUNT])
     for i in range(count):
-        own = numbers[SeriesRow.PARTS + PART * i : SeriesRow.PARTS + PART * (i + 1)]
+        own = n[SeriesRow.PARTS + PART * i : SeriesRow.PARTS + PART * (i + 1)]
         if real(own[DAMPING]) == 0.0:
             left -= own[FREE]
             soft += 1.0 / own[STIFFNESS]
@@ -125,42 +122,39 @@ def tension_of(machine, k, length, rate):
                 given += own[STIFFNESS] * (x - own[FREE]) / own[DAMPING]
     if real(soft) > 0.0:
         tension = left / soft
-        if real(numbers[SeriesRow.ONLY_PULLS]) > 0.0 and real(tension) < 0.0:
+        if real(n[SeriesRow.ONLY_PULLS]) > 0.0 and real(tension) < 0.0:
             tension = 0.0 * tension
         return tension, 0.0 * left
-    last = numbers[SeriesRow.PARTS + PART * (count - 1) : SeriesRow.PARTS + PART * count]
+    last = n[SeriesRow.PARTS + PART * (count - 1) : SeriesRow.PARTS + PART * count]
     given += last[STIFFNESS] * (left - last[FREE]) / last[DAMPING]
     return given / loose, left
 
 
-@family
-def stretch(machine, number, t):
+@element
+def stretch(machine, index, n, t):
     """Tension, energies, and rates of the lengths of parts with dampers."""
     record = record_at(machine)
     elements, coordinates, control, out = record.elements, record.coordinates, record.control, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, numbers = elements.columns[k], elements.number[k]
-        q, first = index[SeriesRow.COORDINATE], index[SeriesRow.OUTPUT]
-        length, rate = coordinates.value[q], coordinates.rate[q]
-        tension, last = tension_of(machine, k, length, rate)
-        for i in range(np.int64(index[SeriesRow.COUNT])):
-            own = numbers[SeriesRow.PARTS + PART * i : SeriesRow.PARTS + PART * (i + 1)]
-            if real(own[DAMPING]) == 0.0:
-                stretch = tension / own[STIFFNESS]
-            else:
-                x = last
-                if index[SeriesRow.STATES + i] != NONE:
-                    x = elements.state[index[SeriesRow.STATES + i]]
-                stretch = x - own[FREE]
-                speed = (tension - own[STIFFNESS] * stretch) / own[DAMPING]
-                if index[SeriesRow.STATES + i] != NONE:
-                    elements.state_rate[index[SeriesRow.STATES + i]] += speed
-                control.power[1] += own[DAMPING] * speed * speed
-            control.stored[0] += 0.5 * own[STIFFNESS] * stretch * stretch
-            out[first + 4 + i] = own[FREE] + stretch
-        out[first], out[first + 1] = tension, add_coordinate_force(machine, q, -tension)
-        out[first + 2], out[first + 3] = length, rate
-    return OK
+    q, first = index[SeriesRow.COORDINATE], index[SeriesRow.OUTPUT]
+    length, rate = coordinates.value[q], coordinates.rate[q]
+    tension, last = tension_of(machine, index, n, length, rate)
+    for i in range(np.int64(index[SeriesRow.COUNT])):
+        own = n[SeriesRow.PARTS + PART * i : SeriesRow.PARTS + PART * (i + 1)]
+        if real(own[DAMPING]) == 0.0:
+            stretch = tension / own[STIFFNESS]
+        else:
+            x = last
+            if index[SeriesRow.STATES + i] != NONE:
+                x = elements.state[index[SeriesRow.STATES + i]]
+            stretch = x - own[FREE]
+            speed = (tension - own[STIFFNESS] * stretch) / own[DAMPING]
+            if index[SeriesRow.STATES + i] != NONE:
+                elements.state_rate[index[SeriesRow.STATES + i]] += speed
+            control.power[1] += own[DAMPING] * speed * speed
+        control.stored[0] += 0.5 * own[STIFFNESS] * stretch * stretch
+        out[first + 4 + i] = own[FREE] + stretch
+    out[first], out[first + 1] = tension, add_coordinate_force(machine, q, -tension)
+    out[first + 2], out[first + 3] = length, rate
 
 
 def add_spring_series(builder: SystemBuilder, force: SpringSeries) -> None:

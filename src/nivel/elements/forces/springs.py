@@ -10,13 +10,13 @@ from pydantic import BeforeValidator
 
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, is_angle, of_effort, of_force, of_value
-from nivel.elements.rows import Row, several
+from nivel.elements.rows import Row, element, several
+from nivel.kernels.algebra.spatial import dot
+from nivel.kernels.algebra.vectors import opposite
 from nivel.kernels.bodies.coordinate import DISTANCE, ROTATION
-from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force, add_marker_force
 from nivel.kernels.record import function
 from nivel.kernels.record.function import evaluate_function, table_value
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
 from nivel.machine.core import coefficient as of
@@ -236,63 +236,50 @@ class AxesRow(Row):
     preload: Sequence[float] = several(3)
 
 
-@family
-def resist(machine, number, t):
+@element
+def resist(machine, index, n, t):
     """Tension k (c - c0) + preload + d ċ, with a table in place of k (c - c0), or a law in place of all of it.
 
     Spring and preload store energy (the table's integral is table ENERGY), the damper dissipates, a law works from outside.
     """
     record = record_at(machine)
-    elements, coordinates, control = record.elements, record.coordinates, record.control
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, numbers = elements.columns[k], elements.number[k]
-        q = index[SpringRow.AT]
-        c, rate = coordinates.value[q], coordinates.rate[q]
-        if index[SpringRow.LAW] != NONE:
-            tension = evaluate_function(machine, index[SpringRow.LAW], t)
-            control.power[0] -= tension * rate
-        else:
-            stretch = c - numbers[SpringRow.FREE]
-            damping = numbers[SpringRow.DAMPING] * rate
-            tension = numbers[SpringRow.STIFFNESS] * stretch + numbers[SpringRow.PRELOAD] + damping
-            control.stored[0] += (0.5 * numbers[SpringRow.STIFFNESS] * stretch + numbers[SpringRow.PRELOAD]) * stretch
-            control.power[1] += damping * rate
-            if index[SpringRow.TABLE] != NONE:
-                force, _, _ = table_value(record.functions, index[SpringRow.TABLE], stretch)
-                energy, _, _ = table_value(record.functions, index[SpringRow.ENERGY], stretch)
-                tension += force
-                control.stored[0] += energy
-        out = record.outputs.value
-        first = index[SpringRow.OUTPUT]
-        out[first], out[first + 1] = tension, add_coordinate_force(machine, q, -tension)
-        out[first + 2], out[first + 3] = c, rate
-    return OK
+    coordinates, control, out = record.coordinates, record.control, record.outputs.value
+    q, first = index[SpringRow.AT], index[SpringRow.OUTPUT]
+    c, rate = coordinates.value[q], coordinates.rate[q]
+    if index[SpringRow.LAW] != NONE:
+        tension = evaluate_function(machine, index[SpringRow.LAW], t)
+        control.power[0] -= tension * rate
+    else:
+        stretch = c - n[SpringRow.FREE]
+        damping = n[SpringRow.DAMPING] * rate
+        tension = n[SpringRow.STIFFNESS] * stretch + n[SpringRow.PRELOAD] + damping
+        control.stored[0] += (0.5 * n[SpringRow.STIFFNESS] * stretch + n[SpringRow.PRELOAD]) * stretch
+        control.power[1] += damping * rate
+        if index[SpringRow.TABLE] != NONE:
+            force, _, _ = table_value(record.functions, index[SpringRow.TABLE], stretch)
+            energy, _, _ = table_value(record.functions, index[SpringRow.ENERGY], stretch)
+            tension += force
+            control.stored[0] += energy
+    out[first], out[first + 1] = tension, add_coordinate_force(machine, q, -tension)
+    out[first + 2], out[first + 3] = c, rate
 
 
-@family
-def draw(machine, number, t):
-    """Forces of all elements, their energy and losses."""
+@element
+def draw(machine, index, n, t):
+    """Forces along the global axes, their energy and losses."""
     record = record_at(machine)
-    bodies, markers, elements, control = record.bodies, record.markers, record.elements, record.control
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        i, j, first = (
-            elements.columns[k, AxesRow.I],
-            elements.columns[k, AxesRow.J],
-            elements.columns[k, AxesRow.OUTPUT],
-        )
-        n, force = elements.number[k], record.outputs.value[first + 2 : first + 5]
-        for a in range(3):
-            stretch = markers.r[j, a] - markers.r[i, a] - n[AxesRow.FREE + a]
-            rate = markers.rdot[j, a] - markers.rdot[i, a]
-            damping = n[AxesRow.DAMPING + a] * rate
-            force[a] = -(n[AxesRow.STIFFNESS + a] * stretch + n[AxesRow.PRELOAD + a] + damping)
-            control.stored[0] += (0.5 * n[AxesRow.STIFFNESS + a] * stretch + n[AxesRow.PRELOAD + a]) * stretch
-            control.power[1] += damping * rate
-        x, y, z = force[0], force[1], force[2]
-        power = add_marker_force(bodies, markers, j, x, y, z) + add_marker_force(bodies, markers, i, -x, -y, -z)
-        record.outputs.value[first] = np.sqrt(x * x + y * y + z * z)
-        record.outputs.value[first + 1] = power
-    return OK
+    bodies, markers, control, out = record.bodies, record.markers, record.control, record.outputs.value
+    i, j, first = index[AxesRow.I], index[AxesRow.J], index[AxesRow.OUTPUT]
+    force = out[first + 2 : first + 5]
+    for a in range(3):
+        stretch = markers.r[j, a] - markers.r[i, a] - n[AxesRow.FREE + a]
+        rate = markers.rdot[j, a] - markers.rdot[i, a]
+        damping = n[AxesRow.DAMPING + a] * rate
+        force[a] = -(n[AxesRow.STIFFNESS + a] * stretch + n[AxesRow.PRELOAD + a] + damping)
+        control.stored[0] += (0.5 * n[AxesRow.STIFFNESS + a] * stretch + n[AxesRow.PRELOAD + a]) * stretch
+        control.power[1] += damping * rate
+    power = add_marker_force(bodies, markers, j, force) + add_marker_force(bodies, markers, i, opposite(force))
+    out[first], out[first + 1] = np.sqrt(dot(force, force)), power
 
 
 def add_spring_damper(builder: SystemBuilder, force: SpringDamper) -> None:

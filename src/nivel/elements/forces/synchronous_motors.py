@@ -37,12 +37,11 @@ from nivel.elements.forces.drives import (
 )
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output
+from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real, tanh
-from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import evaluate_function, table_value
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Checked, Problem
@@ -133,10 +132,9 @@ POLES, FLUX, L_D, L_Q, ALPHA, DC, CAPACITANCE, INNER, CAPACITY, STANDBY, DROP, S
 
 
 @stage
-def controlled(machine, k, torque, direct, electrical, link):
+def controlled(machine, index, n, torque, direct, electrical, link):
     """Voltages (u_d, u_q) that the inverter gives; the states of the controllers have their rates."""
     elements = record_at(machine).elements
-    n, index = elements.number[k], elements.columns[k]
     i_d, i_q = elements.state[index[CURRENT_D]], elements.state[index[CURRENT_Q]]
     x_d, x_q = elements.state[index[CONTROL_D]], elements.state[index[CONTROL_Q]]
     limit = n[DriveRow.LIMIT]
@@ -159,11 +157,10 @@ def controlled(machine, k, torque, direct, electrical, link):
 
 
 @stage
-def fed(machine, k, power, link):
+def fed(machine, index, n, power, link):
     """(power from outside, loss in the battery) where the inverter takes `power` from the dc link at the voltage `link`."""
     record = record_at(machine)
     elements = record.elements
-    n, index = elements.number[k], elements.columns[k]
     if index[LINK] == NONE:
         return power, 0.0 * power
     voltage, _, _ = table_value(record.functions, index[OPEN], elements.state[index[CHARGE]])
@@ -174,39 +171,36 @@ def fed(machine, k, power, link):
     return voltage * current, n[INNER] * current * current
 
 
-@family
-def turn_by_field(machine, number, t):
-    """Currents, torques and efforts of all synchronous motors."""
+@element
+def turn_by_field(machine, k, index, n, t):
+    """Currents, torques and effort of a synchronous motor."""
     record = record_at(machine)
     elements, control, out = record.elements, record.control, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        n, index = elements.number[k], elements.columns[k]
-        omega = shaft_speed(machine, k)
-        asked = evaluate_function(machine, index[DriveRow.COMMAND], t) / n[DriveRow.GEAR]
-        direct = evaluate_function(machine, index[DIRECT], t)
-        link = n[DC] + 0.0 * omega
-        if index[LINK] != NONE:
-            link = elements.state[index[LINK]]
-        i_d, i_q = elements.state[index[CURRENT_D]], elements.state[index[CURRENT_Q]]
-        u_d, u_q = controlled(machine, k, asked, direct, n[POLES] * omega, link)
-        torque = 1.5 * n[POLES] * (n[FLUX] * i_q + (n[L_D] - n[L_Q]) * i_d * i_q)
-        square = i_d * i_d + i_q * i_q
-        amplitude = np.sqrt(square + 1e-12 * n[DriveRow.LIMIT] * n[DriveRow.LIMIT])
-        switching = n[STANDBY] + 6.0 / np.pi * n[DROP] * amplitude + 1.5 * n[SWITCH] * square
-        taken = 1.5 * (u_d * i_d + u_q * i_q) + switching
-        supplied, inner = fed(machine, k, taken, link)
-        rubbing = n[DriveRow.FRICTION_TORQUE] * tanh(omega / n[DriveRow.TRANSITION_SPEED]) + n[DriveRow.VISCOUS] * omega
-        effort, lost = transmit(machine, k, torque - rubbing, omega)
-        loss = 1.5 * n[DriveRow.RESISTANCE] * square + rubbing * omega + lost + switching + inner
-        control.power[0] += supplied
-        control.power[1] += loss
-        control.stored[0] += 0.75 * (n[L_D] * i_d * i_d + n[L_Q] * i_q * i_q)
-        first = np.int64(index[DriveRow.OUTPUT])
-        out[first], out[first + 1] = effort, add_coordinate_force(machine, index[DriveRow.COORDINATE], effort)
-        out[first + 2], out[first + 3], out[first + 4] = omega, torque, amplitude
-        out[first + 5], out[first + 6], out[first + 7] = np.sqrt(u_d * u_d + u_q * u_q), taken, loss
-        out[first + 8], out[first + 9], out[first + 10], out[first + 11] = i_d, i_q, link, switching
-    return OK
+    omega = shaft_speed(machine, index, n)
+    asked = evaluate_function(machine, index[DriveRow.COMMAND], t) / n[DriveRow.GEAR]
+    direct = evaluate_function(machine, index[DIRECT], t)
+    link = n[DC] + 0.0 * omega
+    if index[LINK] != NONE:
+        link = elements.state[index[LINK]]
+    i_d, i_q = elements.state[index[CURRENT_D]], elements.state[index[CURRENT_Q]]
+    u_d, u_q = controlled(machine, index, n, asked, direct, n[POLES] * omega, link)
+    torque = 1.5 * n[POLES] * (n[FLUX] * i_q + (n[L_D] - n[L_Q]) * i_d * i_q)
+    square = i_d * i_d + i_q * i_q
+    amplitude = np.sqrt(square + 1e-12 * n[DriveRow.LIMIT] * n[DriveRow.LIMIT])
+    switching = n[STANDBY] + 6.0 / np.pi * n[DROP] * amplitude + 1.5 * n[SWITCH] * square
+    taken = 1.5 * (u_d * i_d + u_q * i_q) + switching
+    supplied, inner = fed(machine, index, n, taken, link)
+    rubbing = n[DriveRow.FRICTION_TORQUE] * tanh(omega / n[DriveRow.TRANSITION_SPEED]) + n[DriveRow.VISCOUS] * omega
+    effort, lost = transmit(machine, k, torque - rubbing, omega)
+    loss = 1.5 * n[DriveRow.RESISTANCE] * square + rubbing * omega + lost + switching + inner
+    control.power[0] += supplied
+    control.power[1] += loss
+    control.stored[0] += 0.75 * (n[L_D] * i_d * i_d + n[L_Q] * i_q * i_q)
+    first = np.int64(index[DriveRow.OUTPUT])
+    out[first], out[first + 1] = effort, add_coordinate_force(machine, index[DriveRow.COORDINATE], effort)
+    out[first + 2], out[first + 3], out[first + 4] = omega, torque, amplitude
+    out[first + 5], out[first + 6], out[first + 7] = np.sqrt(u_d * u_d + u_q * u_q), taken, loss
+    out[first + 8], out[first + 9], out[first + 10], out[first + 11] = i_d, i_q, link, switching
 
 
 def add_synchronous_motor(builder: SystemBuilder, force: SynchronousMotor) -> None:

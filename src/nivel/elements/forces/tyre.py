@@ -45,16 +45,14 @@ from nivel.elements.forces.magic_formula import (
 )
 from nivel.elements.kind import Kind
 from nivel.elements.output import Output, add_outputs, of_force
-from nivel.elements.rows import Row, several
+from nivel.elements.rows import Row, element, several
 from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import absolute, arctan2, maximum, minimum, real
 from nivel.kernels.algebra.spatial import cross, dot
-from nivel.kernels.core.status import OK
-from nivel.kernels.elements.patch import axis, minus
+from nivel.kernels.algebra.vectors import axis, minus, opposite, plus, seen, times, turned
 from nivel.kernels.forces.wrench import add_force_at, add_torque
 from nivel.kernels.record import function
 from nivel.kernels.record.function import evaluate_function
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import MachineRecord, SystemBuilder
 from nivel.machine.core.checked import Checked, Problem, superfluous
@@ -290,8 +288,8 @@ class Tyre(ForceElement):
 class TyreRow(Row):
     """Markers WHEEL and PLANE, states of four stretches; vertical, carcass and curves: slope, peak slip, peak, sliding slip, sliding.
 
-    FRICTION : the function of the grip, whose value is in GRIP. GROUND : which tyre of the family has the HEIGHTS of the ground, or NONE
-    where it is flat.
+    FRICTION : the function of the grip, whose value is in GRIP. GROUND : by how many rows before this one stands the tyre with the HEIGHTS
+    of the ground, or NONE where it is flat.
     """
 
     output: int
@@ -511,10 +509,8 @@ def plane_under(heights, A, r, centre, y, radius, width):
     and half of the width on either side. The plane is the tangent of the mean height there and turns about the patch, so that it keeps
     energy.
     """
-    c = minus(centre, r)
-    a, b, z = axis(A, 0), axis(A, 1), axis(A, 2)
-    c0, c1, c2 = dot(a, c), dot(b, c), dot(z, c)
-    y0, y1, y2 = dot(a, y), dot(b, y), dot(z, y)
+    c0, c1, c2 = seen(A, minus(centre, r))
+    y0, y1, y2 = seen(A, y)
     px, py = c0, c1
     for _ in range(TOUCHES):
         h, gx, gy, _, _, _ = surface(heights, px, py)
@@ -534,142 +530,115 @@ def plane_under(heights, A, r, centre, y, radius, width):
         own = surface(heights, px + before * y1 + aside * y0, py - before * y0 + aside * y1)
         h, gx, gy = h + 0.25 * own[0], gx + 0.25 * own[1], gy + 0.25 * own[2]
     size = np.sqrt(1.0 + gx * gx + gy * gy)
-    normal = (
-        (z[0] - gx * a[0] - gy * b[0]) / size,
-        (z[1] - gx * a[1] - gy * b[1]) / size,
-        (z[2] - gx * a[2] - gy * b[2]) / size,
-    )
-    point = (
-        r[0] + px * a[0] + py * b[0] + h * z[0],
-        r[1] + px * a[1] + py * b[1] + h * z[1],
-        r[2] + px * a[2] + py * b[2] + h * z[2],
-    )
-    return normal, point
+    return turned(A, (-gx / size, -gy / size, 1.0 / size)), plus(r, turned(A, (px, py, h)))
 
 
-@family
-def apply(machine, number, t):
-    """Forces of all tyres, on wheels and planes, and rates of their stretches."""
+@element
+def apply(machine, k, index, n, t):
+    """Forces of a tyre, on wheel and plane, and rates of its stretches."""
     record = record_at(machine)
     elements, markers, bodies, control = record.elements, record.markers, record.bodies, record.control
-    followed = record.watched.followed[0]
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        i, j, first, own = index[TyreRow.WHEEL], index[TyreRow.PLANE], index[TyreRow.OUTPUT], index[TyreRow.STRETCH :]
-        wheel, road = markers.body[i], markers.body[j]
-        normal, y, centre = axis(markers.A[j], 2), axis(markers.A[i], 2), markers.r[i]
-        ground = markers.r[j, 0], markers.r[j, 1], markers.r[j, 2]
-        if index[TyreRow.GROUND] != NONE:
-            heights = elements.number[elements.span[number, 0] + index[TyreRow.GROUND], TyreRow.HEIGHTS :]
-            normal, ground = plane_under(heights, markers.A[j], ground, centre, y, n[TyreRow.RADIUS], n[TyreRow.WIDTH])
-        cx, dx, cy, dy = n[TyreRow.CX], n[TyreRow.DX], n[TyreRow.CY], n[TyreRow.DY]
-        rate = elements.state_rate
-        z, rolled = (elements.state[own[0]], elements.state[own[1]], elements.state[own[2]]), elements.state[own[3]]
-        out = record.outputs.value[first : first + 14]
-        # from the centre to the patch d, across the axle in the plane of the axle and the normal; x, a: along and across in the plane
-        tilt = dot(normal, y)
-        upright = np.sqrt(maximum(1.0 - tilt * tilt, FLAT * FLAT + 0.0 * tilt))
-        loaded = dot(normal, minus(centre, ground)) / upright
-        deflection = n[TyreRow.RADIUS] - loaded
-        x = cross(y, normal)
-        x = x[0] / upright, x[1] / upright, x[2] / upright
-        a = cross(normal, x)
-        arm = -loaded / upright
-        d = arm * (normal[0] - tilt * y[0]), arm * (normal[1] - tilt * y[1]), arm * (normal[2] - tilt * y[2])
-        p = centre[0] + d[0], centre[1] + d[1], centre[2] + d[2]
-        w, over = bodies.omega[wheel], bodies.omega[road]
-        turn, below = cross(w, d), cross(over, minus(p, markers.r[j]))
-        v, under = markers.rdot[i], markers.rdot[j]
-        s = (
-            v[0] + turn[0] - under[0] - below[0],
-            v[1] + turn[1] - under[1] - below[1],
-            v[2] + turn[2] - under[2] - below[2],
-        )
-        w = minus(w, over)
-        spin, bore, sinking = dot(w, y), dot(w, normal), -dot(s, normal) / upright
-        elements.depth[k, 0] = deflection
-        if followed == 1:
-            elements.depth_rate[k, 0] = sinking
-        elastic = n[TyreRow.C] * deflection
-        load = maximum((elastic + n[TyreRow.D] * sinking) / upright, 0.0 * tilt)
-        control.stored[0] += 0.5 * (cx * z[0] * z[0] + cy * (z[1] * z[1] + z[2] * z[2]))
-        control.stored[0] += 0.5 * n[TyreRow.ROLLING] * n[TyreRow.LOAD] / ROLLED * rolled * rolled
-        if real(deflection) > 0.0:
-            control.stored[0] += 0.5 * elastic * deflection
-            control.power[1] += (load * upright - elastic) * sinking
-        q = load / n[TyreRow.LOAD]
-        for m in range(14):
-            out[m] = 0.0 * tilt
-        place = minus(p, markers.r[j])
-        out[11], out[12] = dot(axis(markers.A[j], 0), place), dot(axis(markers.A[j], 1), place)
-        n[TyreRow.GRIP] = maximum(evaluate_function(machine, index[TyreRow.FRICTION], t), LEAST_GRIP + 0.0 * tilt)
-        if real(deflection) <= 0.0 or real(q) < LEAST_LOAD or real(tilt * tilt) > 1.0 - FLAT * FLAT:
-            rate[own[0]] -= cx / dx * z[0]
-            rate[own[1]] -= cy / dy * z[1]
-            rate[own[2]] -= cy / dy * z[2]
-            rate[own[3]] -= rolled / ROLL_TIME
-            loss = cx / dx * cx * z[0] * z[0] + cy / dy * cy * (z[1] * z[1] + z[2] * z[2])
-            loss += n[TyreRow.ROLLING] * n[TyreRow.LOAD] / ROLLED / ROLL_TIME * rolled * rolled
-            control.power[1] += loss
-            out[9], out[10] = deflection, loss
-            continue
-        q = minimum(q, MOST_LOAD + 0.0 * q)
-        stays = n[TyreRow.ROLLING_SHARE] * minimum(q, 2.0 + 0.0 * q)
-        r = n[TyreRow.RADIUS] - (1.0 - stays) * deflection
-        roll = r * spin
-        v_t = rocked(roll)
-        length = 2.0 * np.sqrt(n[TyreRow.RADIUS] * deflection)
-        patch = (length + n[TyreRow.WIDTH]) / 6.0
-        along, across = dot(s, x), dot(s, a)
-        moved = along + loaded * spin  # of the contact point without its spin
-        slide = along + (loaded - r) * spin
-        most, beside, about, turned = n[TyreRow.ROLLING] * load, 0.0 * load, 0.0 * load, 0.0 * load
-        bearing, forward, moments = q * n[TyreRow.LOAD], 1.0 if real(moved) >= 0.0 else -1.0, (most, most, most)
-        if n[TyreRow.IS_MAGIC] == 1.0:
-            trail, lean, turned = 0.0 * load, 0.0 * load, tilt
-            v = slide, across, patch * (bore - turned * spin)
-            fluid, (f0, g0), moments = magic_fluidities(n, bearing, v_t, absolute(moved), v, z, forward, tilt)
-        else:
-            lean = length / 6.0 * tilt
-            slow = np.sqrt(v_t * v_t + SLOW * SLOW)
-            trail = length * trail_at(n, q, absolute(across + lean * spin) / slow) * roll / slow
-            v = slide, across - trail * bore + lean * spin, patch * bore
-            a_x, a_y = fluidities(n, q, v_t, v, z)
-            fluid, f0, g0 = (a_x, a_y, a_y), 0.0 * load, 0.0 * load
-        u0 = stretch_rate(v[0] - fluid[0] * f0, fluid[0], cx, dx, z[0])
-        u1 = stretch_rate(v[1] - fluid[1] * g0, fluid[1], cy, dy, z[1])
-        u2 = stretch_rate(v[2], fluid[2], cy, dy, z[2])
-        fx, fy, fb = cx * z[0] + dx * u0, cy * z[1] + dy * u1, cy * z[2] + dy * u2
-        if n[TyreRow.IS_MAGIC] == 1.0:
-            about, beside, moment = magic_moments(n, bearing, moments, forward * fx, forward * fy, forward, tilt, moved)
-            about, most = about * v_t / np.sqrt(v_t * v_t + SLOW * SLOW), moment / r
-        fr, u3, loss = rolling(n, most, roll, v_t, rolled)
-        rate[own[0]] += u0
-        rate[own[1]] += u1
-        rate[own[2]] += u2
-        rate[own[3]] += u3
-        loss += dx * u0 * u0 + dy * (u1 * u1 + u2 * u2) - about * bore - beside * dot(w, x)
-        loss += fluid[0] * fx * (fx - f0) + fluid[1] * fy * (fy - g0) + fluid[2] * fb * fb
+    i, j, first, own = index[TyreRow.WHEEL], index[TyreRow.PLANE], index[TyreRow.OUTPUT], index[TyreRow.STRETCH :]
+    wheel, road = markers.body[i], markers.body[j]
+    normal, y, centre = axis(markers.A[j], 2), axis(markers.A[i], 2), markers.r[i]
+    ground = markers.r[j, 0], markers.r[j, 1], markers.r[j, 2]
+    if index[TyreRow.GROUND] != NONE:
+        heights = elements.number[k - index[TyreRow.GROUND], TyreRow.HEIGHTS :]
+        normal, ground = plane_under(heights, markers.A[j], ground, centre, y, n[TyreRow.RADIUS], n[TyreRow.WIDTH])
+    cx, dx, cy, dy = n[TyreRow.CX], n[TyreRow.DX], n[TyreRow.CY], n[TyreRow.DY]
+    rate = elements.state_rate
+    z, rolled = (elements.state[own[0]], elements.state[own[1]], elements.state[own[2]]), elements.state[own[3]]
+    out = record.outputs.value[first : first + 14]
+    # from the centre to the patch d, across the axle in the plane of the axle and the normal; x, a: along and across in the plane
+    tilt = dot(normal, y)
+    upright = np.sqrt(maximum(1.0 - tilt * tilt, FLAT * FLAT + 0.0 * tilt))
+    loaded = dot(normal, minus(centre, ground)) / upright
+    deflection = n[TyreRow.RADIUS] - loaded
+    x = cross(y, normal)
+    x = x[0] / upright, x[1] / upright, x[2] / upright
+    a = cross(normal, x)
+    d = times(-loaded / upright, minus(normal, times(tilt, y)))
+    p = plus(centre, d)
+    w, over = bodies.omega[wheel], bodies.omega[road]
+    below = plus(markers.rdot[j], cross(over, minus(p, markers.r[j])))
+    s = minus(plus(markers.rdot[i], cross(w, d)), below)
+    w = minus(w, over)
+    spin, bore, sinking = dot(w, y), dot(w, normal), -dot(s, normal) / upright
+    elements.depth[k, 0] = deflection
+    if record.watched.followed[0] == 1:
+        elements.depth_rate[k, 0] = sinking
+    elastic = n[TyreRow.C] * deflection
+    load = maximum((elastic + n[TyreRow.D] * sinking) / upright, 0.0 * tilt)
+    control.stored[0] += 0.5 * (cx * z[0] * z[0] + cy * (z[1] * z[1] + z[2] * z[2]))
+    control.stored[0] += 0.5 * n[TyreRow.ROLLING] * n[TyreRow.LOAD] / ROLLED * rolled * rolled
+    if real(deflection) > 0.0:
+        control.stored[0] += 0.5 * elastic * deflection
+        control.power[1] += (load * upright - elastic) * sinking
+    q = load / n[TyreRow.LOAD]
+    for m in range(14):
+        out[m] = 0.0 * tilt
+    out[11], out[12], _ = seen(markers.A[j], minus(p, markers.r[j]))
+    n[TyreRow.GRIP] = maximum(evaluate_function(machine, index[TyreRow.FRICTION], t), LEAST_GRIP + 0.0 * tilt)
+    if real(deflection) <= 0.0 or real(q) < LEAST_LOAD or real(tilt * tilt) > 1.0 - FLAT * FLAT:
+        rate[own[0]] -= cx / dx * z[0]
+        rate[own[1]] -= cy / dy * z[1]
+        rate[own[2]] -= cy / dy * z[2]
+        rate[own[3]] -= rolled / ROLL_TIME
+        loss = cx / dx * cx * z[0] * z[0] + cy / dy * cy * (z[1] * z[1] + z[2] * z[2])
+        loss += n[TyreRow.ROLLING] * n[TyreRow.LOAD] / ROLLED / ROLL_TIME * rolled * rolled
         control.power[1] += loss
-        moment = patch * fb - trail * fy + about
-        axial = r * fr + (loaded - r) * fx + lean * fy - patch * fb * turned
-        f0 = fx * x[0] + fy * a[0] + load * normal[0]
-        f1 = fx * x[1] + fy * a[1] + load * normal[1]
-        f2 = fx * x[2] + fy * a[2] + load * normal[2]
-        m0, m1, m2 = (
-            moment * normal[0] + axial * y[0] + beside * x[0],
-            moment * normal[1] + axial * y[1] + beside * x[1],
-            moment * normal[2] + axial * y[2] + beside * x[2],
-        )
-        power = add_force_at(bodies, wheel, p, f0, f1, f2) + add_torque(bodies, wheel, m0, m1, m2)
-        power += add_force_at(bodies, road, p, -f0, -f1, -f2) + add_torque(bodies, road, -m0, -m1, -m2)
-        fastest = maximum(absolute(moved), v_t)
-        out[0], out[1], out[2], out[3], out[4], out[5] = load, power, fx, fy, moment, axial
-        if real(fastest) > 0.0:
-            out[6] = (roll - moved) / fastest
-        out[7], out[8], out[9], out[10] = arctan2(across, absolute(moved)), np.arcsin(tilt), deflection, loss
-        out[13] = beside
-    return OK
+        out[9], out[10] = deflection, loss
+        return
+    q = minimum(q, MOST_LOAD + 0.0 * q)
+    stays = n[TyreRow.ROLLING_SHARE] * minimum(q, 2.0 + 0.0 * q)
+    r = n[TyreRow.RADIUS] - (1.0 - stays) * deflection
+    roll = r * spin
+    v_t = rocked(roll)
+    length = 2.0 * np.sqrt(n[TyreRow.RADIUS] * deflection)
+    patch = (length + n[TyreRow.WIDTH]) / 6.0
+    along, across = dot(s, x), dot(s, a)
+    moved = along + loaded * spin  # of the contact point without its spin
+    slide = along + (loaded - r) * spin
+    most, beside, about, turning = n[TyreRow.ROLLING] * load, 0.0 * load, 0.0 * load, 0.0 * load
+    bearing, forward, moments = q * n[TyreRow.LOAD], 1.0 if real(moved) >= 0.0 else -1.0, (most, most, most)
+    if n[TyreRow.IS_MAGIC] == 1.0:
+        trail, lean, turning = 0.0 * load, 0.0 * load, tilt
+        v = slide, across, patch * (bore - turning * spin)
+        fluid, (f0, g0), moments = magic_fluidities(n, bearing, v_t, absolute(moved), v, z, forward, tilt)
+    else:
+        lean = length / 6.0 * tilt
+        slow = np.sqrt(v_t * v_t + SLOW * SLOW)
+        trail = length * trail_at(n, q, absolute(across + lean * spin) / slow) * roll / slow
+        v = slide, across - trail * bore + lean * spin, patch * bore
+        a_x, a_y = fluidities(n, q, v_t, v, z)
+        fluid, f0, g0 = (a_x, a_y, a_y), 0.0 * load, 0.0 * load
+    u0 = stretch_rate(v[0] - fluid[0] * f0, fluid[0], cx, dx, z[0])
+    u1 = stretch_rate(v[1] - fluid[1] * g0, fluid[1], cy, dy, z[1])
+    u2 = stretch_rate(v[2], fluid[2], cy, dy, z[2])
+    fx, fy, fb = cx * z[0] + dx * u0, cy * z[1] + dy * u1, cy * z[2] + dy * u2
+    if n[TyreRow.IS_MAGIC] == 1.0:
+        about, beside, moment = magic_moments(n, bearing, moments, forward * fx, forward * fy, forward, tilt, moved)
+        about, most = about * v_t / np.sqrt(v_t * v_t + SLOW * SLOW), moment / r
+    fr, u3, loss = rolling(n, most, roll, v_t, rolled)
+    rate[own[0]] += u0
+    rate[own[1]] += u1
+    rate[own[2]] += u2
+    rate[own[3]] += u3
+    loss += dx * u0 * u0 + dy * (u1 * u1 + u2 * u2) - about * bore - beside * dot(w, x)
+    loss += fluid[0] * fx * (fx - f0) + fluid[1] * fy * (fy - g0) + fluid[2] * fb * fb
+    control.power[1] += loss
+    moment = patch * fb - trail * fy + about
+    axial = r * fr + (loaded - r) * fx + lean * fy - patch * fb * turning
+    force = plus(plus(times(fx, x), times(fy, a)), times(load, normal))
+    torque = plus(plus(times(moment, normal), times(axial, y)), times(beside, x))
+    power = add_force_at(bodies, wheel, p, force) + add_torque(bodies, wheel, torque)
+    power += add_force_at(bodies, road, p, opposite(force)) + add_torque(bodies, road, opposite(torque))
+    fastest = maximum(absolute(moved), v_t)
+    out[0], out[1], out[2], out[3], out[4], out[5] = load, power, fx, fy, moment, axial
+    if real(fastest) > 0.0:
+        out[6] = (roll - moved) / fastest
+    out[7], out[8], out[9], out[10] = arctan2(across, absolute(moved)), np.arcsin(tilt), deflection, loss
+    out[13] = beside
 
 
 def add_tyre(builder: SystemBuilder, force: Tyre) -> None:
@@ -694,13 +663,13 @@ def add_tyre(builder: SystemBuilder, force: Tyre) -> None:
         vertical *= 1.0 + formula[Magic.PRESSED]
     # tyres on the same heights share the numbers of the first one
     others = [each for each in builder.machine.forces if isinstance(each, Tyre)]
-    ground = (
-        NONE if force.heights is None else next(k for k, each in enumerate(others) if each.heights == force.heights)
-    )
-    mine = force.heights is not None and others[ground] is force
+    ground, heights = NONE, []
+    if force.heights is not None:
+        ground = others.index(force) - next(k for k, each in enumerate(others) if each.heights == force.heights)
+        heights = numbers_of(force.heights.heights, force.heights.size) if ground == 0 else []
     row = TyreRow(
         ground=ground,
-        heights=numbers_of(force.heights.heights, force.heights.size) if mine and force.heights is not None else (),
+        heights=heights,
         output=first,
         wheel=wheel,
         plane=plane,

@@ -31,13 +31,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from nivel.elements.forces.shafts import flank
-from nivel.elements.rows import Row, several
+from nivel.elements.rows import Row, element, several
 from nivel.kernels.algebra.analytic import arctan2, maximum, real
-from nivel.kernels.algebra.spatial import cross
-from nivel.kernels.core.status import OK
-from nivel.kernels.forces.wrench import add_force_at, add_torque
+from nivel.kernels.algebra.spatial import dot
+from nivel.kernels.algebra.vectors import axis, minus, plus, seen, times, turned
+from nivel.kernels.forces.wrench import add_force_at, add_torque, velocity_at
 from nivel.kernels.record.function import evaluate_function
-from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf, stage
 
@@ -64,10 +63,10 @@ class RopeRow(Row):
 RADIUS, NEAR, FIXED, USED, CENTRE, X, Y, Z, UX, UY = 0, 1, 2, 3, 4, 7, 8, 9, 10, 11
 WIDTH = 12
 # of `number` behind the places: coefficient of friction, length as placed; then PART for each free part: its stiffness, way and direction
-# as placed; then work: stretch, its rate, force of the part on its ends per tension, global (3), of its axis (3), and the rate of the
+# as placed; then work: stretch, its rate, force on its first end per tension, global (3), moment across the axis (3), and the rate of the
 # stretch that slip takes from it
 FRICTION, PLACED, PARTS = 0, 1, 2
-STIFF, WAY, ANGLE, STRETCH, RATE, FORCE, TILT, SLIPPED = 0, 1, 2, 3, 4, 5, 8, 11
+STIFF, WAY, ANGLE, STRETCH, RATE, FORCE, MOMENT, SLIPPED = 0, 1, 2, 3, 4, 5, 8, 11
 PART = 12
 # of `memory`: whether there is one; of each part λ and its direction; of each wheel its angle
 KNOWN, LAMBDA = 0, 1
@@ -131,6 +130,30 @@ def followed_angle(sine, cosine, near):
     return angle + 2.0 * np.pi * np.floor((near - real(angle)) / (2.0 * np.pi) + 0.5)
 
 
+@leaf
+def way_between(A, a, b, on_part, on_first, on_last, rise):
+    """(f, moment, L) of the free part from place a to place b: f = ∂/∂(c_b - c_a) of w L + arcs at both ends, each with its weight; what of
+    (c_b - c_a) × f is across the axis, which turns the body that carries it; its length in space. Global axes.
+
+    `rise`: weight of the mean height of L as the free part turns about the axis.
+    """
+    dx, dy, z, rho = b[X] - a[X], b[Y] - a[Y], b[Z] - a[Z], b[USED] - a[USED]
+    square = dx * dx + dy * dy
+    length, _, _ = tangent(dx, dy, rho)
+    whole = np.sqrt(length * length + z * z)
+    turning = on_last * b[USED] - on_first * a[USED] - rise * whole
+    along = on_part / whole - turning * rho / (square * length)
+    fx, fy = along * dx + turning * dy / square, along * dy - turning * dx / square
+    fz = on_part * z / whole
+    return turned(A, (fx, fy, fz)), turned(A, (dy * fz - z * fy, z * fx - dx * fz, 0.0 * fz)), whole
+
+
+@leaf
+def centre_of(own):
+    """The centre of a place, global."""
+    return own[CENTRE], own[CENTRE + 1], own[CENTRE + 2]
+
+
 @stage
 def lay_out(machine, k):
     """Centres of all places, in space and in the plane of the axis, and their radii; returns that axis (3)."""
@@ -139,27 +162,23 @@ def lay_out(machine, k):
     A = markers.A[index[RopeRow.AXIS]]
     for j in range(np.int64(index[RopeRow.COUNT])):
         own = numbers[at(j) : at(j + 1)]
-        r = markers.r[index[RopeRow.ALONG + j]]
         own[USED] = own[RADIUS]
-        place_at(own, A, r[0], r[1], r[2])
-    return A[0, 2], A[1, 2], A[2, 2]
+        place_at(own, A, markers.r[index[RopeRow.ALONG + j]])
+    return axis(A, 2)
 
 
 @leaf
-def place_at(own, A, x, y, z):
+def place_at(own, A, p):
     """Put the centre of a place there."""
-    own[CENTRE], own[CENTRE + 1], own[CENTRE + 2] = x, y, z
-    own[X] = A[0, 0] * x + A[1, 0] * y + A[2, 0] * z
-    own[Y] = A[0, 1] * x + A[1, 1] * y + A[2, 1] * z
-    own[Z] = A[0, 2] * x + A[1, 2] * y + A[2, 2] * z
+    own[CENTRE], own[CENTRE + 1], own[CENTRE + 2] = p[0], p[1], p[2]
+    own[X], own[Y], own[Z] = seen(A, p)
 
 
 @leaf
 def direction_fixed(A, B, angle):
     """(x, y) in the plane of A of the direction at an angle from the x axis of B towards its y axis."""
-    c, s = np.cos(angle), np.sin(angle)
-    x, y, z = c * B[0, 0] + s * B[0, 1], c * B[1, 0] + s * B[1, 1], c * B[2, 0] + s * B[2, 1]
-    return A[0, 0] * x + A[1, 0] * y + A[2, 0] * z, A[0, 1] * x + A[1, 1] * y + A[2, 1] * z
+    x, y, _ = seen(A, plus(times(np.cos(angle), axis(B, 0)), times(np.sin(angle), axis(B, 1))))
+    return x, y
 
 
 @stage
@@ -226,11 +245,7 @@ def let_off(machine, k):
             if j == 0 or j == count - 1:
                 ex, ey = direction_fixed(A, markers.A[index[RopeRow.ALONG + j]], own[FIXED])
                 r = own[RADIUS] if real(own[RADIUS]) > 0.0 else -own[RADIUS]
-                ex, ey = r * ex, r * ey
-                x = own[CENTRE] + A[0, 0] * ex + A[0, 1] * ey
-                y = own[CENTRE + 1] + A[1, 0] * ex + A[1, 1] * ey
-                z = own[CENTRE + 2] + A[2, 0] * ex + A[2, 1] * ey
-                place_at(own, A, x, y, z)
+                place_at(own, A, plus(centre_of(own), turned(A, (r * ex, r * ey, 0.0 * ex))))
                 own[USED] = 0.0
             else:
                 own[USED] = np.nan
@@ -245,51 +260,29 @@ def way_along(machine, k, n, tension, act):
     bodies, markers, elements = record.bodies, record.markers, record.elements
     index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, RopeRow.COUNT])
     A, carrier = markers.A[index[RopeRow.AXIS]], markers.body[index[RopeRow.AXIS]]
-    w = bodies.omega[carrier]
-    turning = cross((w[0], w[1], w[2]), n)
-    s, rate = 0.0 * tension, 0.0 * tension
-    j = 0
+    s, rate, j = 0.0 * tension, 0.0 * tension, 0
     while j < count - 1:
         i = next_touched(numbers, j, count)
-        a = numbers[at(j) : at(j + 1)]
-        b = numbers[at(i) : at(i + 1)]
-        dx, dy, z, rho = b[X] - a[X], b[Y] - a[Y], b[Z] - a[Z], b[USED] - a[USED]
-        square = dx * dx + dy * dy
-        length, _, _ = tangent(dx, dy, rho)
-        whole = np.sqrt(length * length + z * z)
-        # ∂s/∂d in the plane, along n, and by the direction of n
-        along = 1.0 / whole - rho * rho / (square * length)
-        fx, fy, fz = along * dx + rho * dy / square, along * dy - rho * dx / square, z / whole
-        gx = A[0, 0] * fx + A[0, 1] * fy + fz * n[0]
-        gy = A[1, 0] * fx + A[1, 1] * fy + fz * n[1]
-        gz = A[2, 0] * fx + A[2, 1] * fy + fz * n[2]
-        tx, ty = fz * dx - z * fx, fz * dy - z * fy
-        tilt = A[0, 0] * tx + A[0, 1] * ty, A[1, 0] * tx + A[1, 1] * ty, A[2, 0] * tx + A[2, 1] * ty
+        a, b = numbers[at(j) : at(j + 1)], numbers[at(i) : at(i + 1)]
+        first, last = markers.body[index[RopeRow.ALONG + j]], markers.body[index[RopeRow.ALONG + i]]
+        f, moment, whole = way_between(A, a, b, 1.0, 1.0, 1.0, 0.0)
         s += whole
         if act:
-            ba, bb = markers.body[index[RopeRow.ALONG + j]], markers.body[index[RopeRow.ALONG + i]]
-            add_force_at(bodies, ba, a[CENTRE : CENTRE + 3], tension * gx, tension * gy, tension * gz)
-            add_force_at(bodies, bb, b[CENTRE : CENTRE + 3], -tension * gx, -tension * gy, -tension * gz)
-            m = cross(n, tilt)
-            add_torque(bodies, carrier, -tension * m[0], -tension * m[1], -tension * m[2])
+            add_force_at(bodies, first, centre_of(a), times(tension, f))
+            add_force_at(bodies, last, centre_of(b), times(-tension, f))
+            add_torque(bodies, carrier, times(tension, moment))
         else:
-            v, u = (
-                velocity_of(bodies, markers.body[index[RopeRow.ALONG + i]], b),
-                velocity_of(bodies, markers.body[index[RopeRow.ALONG + j]], a),
-            )
-            rate += gx * (v[0] - u[0]) + gy * (v[1] - u[1]) + gz * (v[2] - u[2])
-            rate += tilt[0] * turning[0] + tilt[1] * turning[1] + tilt[2] * turning[2]
+            v, u = velocity_at(bodies, last, centre_of(b)), velocity_at(bodies, first, centre_of(a))
+            rate += dot(f, minus(v, u)) - dot(moment, bodies.omega[carrier])
         j = i
     for end in range(2):
         j = 0 if end == 0 else count - 1
-        own = numbers[at(j) : at(j + 1)]
-        r = -own[USED] if end == 0 else own[USED]
-        b = markers.body[index[RopeRow.ALONG + j]]
+        used, drum = numbers[at(j) + USED], markers.body[index[RopeRow.ALONG + j]]
+        r = -used if end == 0 else used
         if act:
-            add_torque(bodies, b, -tension * r * n[0], -tension * r * n[1], -tension * r * n[2])
+            add_torque(bodies, drum, times(-tension * r, n))
         else:
-            w = bodies.omega[b]
-            rate += r * (w[0] * n[0] + w[1] * n[1] + w[2] * n[2])
+            rate += r * dot(bodies.omega[drum], n)
     if not act:
         before, j = 0, 0
         while j < count:
@@ -301,35 +294,21 @@ def way_along(machine, k, n, tension, act):
     return s, rate
 
 
-@leaf
-def velocity_of(bodies, b, own):
-    """Velocity (3) of the body's point at the centre of a place."""
-    R, V, w = bodies.R[b], bodies.Rdot[b], bodies.omega[b]
-    x, y, z = own[CENTRE] - R[0], own[CENTRE + 1] - R[1], own[CENTRE + 2] - R[2]
-    return V[0] + w[1] * z - w[2] * y, V[1] + w[2] * x - w[0] * z, V[2] + w[0] * y - w[1] * x
-
-
-@family
-def apply(machine, number, t):
-    """Tensions along the ways around wheels."""
-    record = record_at(machine)
-    elements, out = record.elements, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, numbers = elements.columns[k], elements.number[k]
-        count = np.int64(index[RopeRow.COUNT])
-        n = lay_out(machine, k)
-        find_parts(numbers, count)
-        if let_off(machine, k):
-            find_parts(numbers, count)
-        s, rate = way_along(machine, k, n, 0.0 * numbers[RopeRow.STIFFNESS], False)
-        length, speed = paid_out(machine, k, t, 0.0 * s)
-        stretch = s - length
-        tension = tension_in(machine, k, stretch, rate - speed, speed)
-        if real(tension) > 0.0:
-            way_along(machine, k, n, tension, True)
-        first = index[RopeRow.OUTPUT]
-        out[first], out[first + 1], out[first + 2] = tension, -tension * rate, stretch
-    return OK
+@element
+def apply(machine, k, index, n, t):
+    """Tension along the way around wheels."""
+    out, first, count = record_at(machine).outputs.value, index[RopeRow.OUTPUT], np.int64(index[RopeRow.COUNT])
+    axle = lay_out(machine, k)
+    find_parts(n, count)
+    if let_off(machine, k):
+        find_parts(n, count)
+    s, rate = way_along(machine, k, axle, 0.0 * n[RopeRow.STIFFNESS], False)
+    length, speed = paid_out(machine, k, t, 0.0 * s)
+    stretch = s - length
+    tension = tension_in(machine, k, stretch, rate - speed, speed)
+    if real(tension) > 0.0:
+        way_along(machine, k, axle, tension, True)
+    out[first], out[first + 1], out[first + 2] = tension, -tension * rate, stretch
 
 
 @leaf
@@ -353,38 +332,25 @@ def measure_parts(machine, k, n):
     index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, RopeRow.COUNT])
     memory, proposal = elements.memory[k], elements.proposal[k]
     A, carrier = markers.A[index[RopeRow.AXIS]], markers.body[index[RopeRow.AXIS]]
-    w = bodies.omega[carrier]
-    turning = cross((w[0], w[1], w[2]), n)
     base, wheels = at(count), LAMBDA + 2 * (count - 1)
     for j in range(count):
         x, y = direction_fixed(A, markers.A[index[RopeRow.ALONG + j]], 0.0)
         proposal[wheels + j] = followed_angle(y, x, memory[wheels + j])
     for p in range(count - 1):
-        a = numbers[at(p) : at(p + 1)]
-        b = numbers[at(p + 1) : at(p + 2)]
+        a, b = numbers[at(p) : at(p + 1)], numbers[at(p + 1) : at(p + 2)]
         own = numbers[base + PARTS + PART * p : base + PARTS + PART * (p + 1)]
-        dx, dy, z, rho = b[X] - a[X], b[Y] - a[Y], b[Z] - a[Z], b[USED] - a[USED]
-        square = dx * dx + dy * dy
-        length, ux, uy = tangent(dx, dy, rho)
-        whole = np.sqrt(length * length + z * z)
+        rho = b[USED] - a[USED]
+        _, ux, uy = tangent(b[X] - a[X], b[Y] - a[Y], rho)
         near = memory[LAMBDA + 2 * p + 1] if memory[KNOWN] > 0.0 else real(own[ANGLE])
         alpha = followed_angle(uy, ux, near)
         proposal[LAMBDA + 2 * p + 1] = alpha
-        along = 1.0 / whole - rho * rho / (square * length)
-        fx, fy, fz = along * dx + rho * dy / square, along * dy - rho * dx / square, z / whole
-        own[FORCE] = A[0, 0] * fx + A[0, 1] * fy + fz * n[0]
-        own[FORCE + 1] = A[1, 0] * fx + A[1, 1] * fy + fz * n[1]
-        own[FORCE + 2] = A[2, 0] * fx + A[2, 1] * fy + fz * n[2]
-        tx, ty = fz * dx - z * fx, fz * dy - z * fy
-        own[TILT], own[TILT + 1] = A[0, 0] * tx + A[0, 1] * ty, A[1, 0] * tx + A[1, 1] * ty
-        own[TILT + 2] = A[2, 0] * tx + A[2, 1] * ty
-        ba, bb = markers.body[index[RopeRow.ALONG + p]], markers.body[index[RopeRow.ALONG + p + 1]]
-        v, u, wa, wb = velocity_of(bodies, bb, b), velocity_of(bodies, ba, a), bodies.omega[ba], bodies.omega[bb]
-        rate = 0.0 * whole
-        for i in range(3):
-            rate += own[FORCE + i] * (v[i] - u[i]) + own[TILT + i] * turning[i]
-            rate += (b[USED] * wb[i] - a[USED] * wa[i]) * n[i]
-        own[RATE] = rate
+        f, moment, whole = way_between(A, a, b, 1.0, 1.0, 1.0, 0.0)
+        own[FORCE], own[FORCE + 1], own[FORCE + 2] = f
+        own[MOMENT], own[MOMENT + 1], own[MOMENT + 2] = moment
+        first, last = markers.body[index[RopeRow.ALONG + p]], markers.body[index[RopeRow.ALONG + p + 1]]
+        v, u = velocity_at(bodies, last, centre_of(b)), velocity_at(bodies, first, centre_of(a))
+        own[RATE] = dot(f, minus(v, u)) - dot(moment, bodies.omega[carrier])
+        own[RATE] += b[USED] * dot(bodies.omega[last], n) - a[USED] * dot(bodies.omega[first], n)
         own[STRETCH] = whole - rho * alpha - a[USED] * proposal[wheels + p] + b[USED] * proposal[wheels + p + 1]
     begin_tension(numbers, memory, proposal, count)
     for p in range(count - 1):
@@ -480,57 +446,52 @@ def pull(machine, k, p, n, tension):
     record = record_at(machine)
     bodies, markers, elements = record.bodies, record.markers, record.elements
     index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, RopeRow.COUNT])
-    a = numbers[at(p) : at(p + 1)]
-    b = numbers[at(p + 1) : at(p + 2)]
+    a, b = numbers[at(p) : at(p + 1)], numbers[at(p + 1) : at(p + 2)]
     own = numbers[at(count) + PARTS + PART * p : at(count) + PARTS + PART * (p + 1)]
-    ba, bb = markers.body[index[RopeRow.ALONG + p]], markers.body[index[RopeRow.ALONG + p + 1]]
-    x, y, z = tension * own[FORCE], tension * own[FORCE + 1], tension * own[FORCE + 2]
-    add_force_at(bodies, ba, a[CENTRE : CENTRE + 3], x, y, z)
-    add_force_at(bodies, bb, b[CENTRE : CENTRE + 3], -x, -y, -z)
-    m = cross(n, (own[TILT], own[TILT + 1], own[TILT + 2]))
-    add_torque(bodies, markers.body[index[RopeRow.AXIS]], -tension * m[0], -tension * m[1], -tension * m[2])
-    r, s = tension * a[USED], -tension * b[USED]
-    add_torque(bodies, ba, r * n[0], r * n[1], r * n[2])
-    add_torque(bodies, bb, s * n[0], s * n[1], s * n[2])
+    first, last = markers.body[index[RopeRow.ALONG + p]], markers.body[index[RopeRow.ALONG + p + 1]]
+    add_force_at(bodies, first, centre_of(a), times(tension, own[FORCE:MOMENT]))
+    add_force_at(bodies, last, centre_of(b), times(-tension, own[FORCE:MOMENT]))
+    add_torque(bodies, markers.body[index[RopeRow.AXIS]], times(tension, own[MOMENT:SLIPPED]))
+    add_torque(bodies, first, times(tension * a[USED], n))
+    add_torque(bodies, last, times(-tension * b[USED], n))
 
 
-@family
-def stick_and_slip(machine, number, t):
+@element
+def stick_and_slip(machine, k, index, n, t):
     """Tensions of all parts; outputs: that of the first part, power, its stretch, tension of the last part."""
     record = record_at(machine)
-    elements, control, out = record.elements, record.control, record.outputs.value
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, numbers = elements.columns[k], elements.number[k]
-        count = np.int64(index[RopeRow.COUNT])
-        n = lay_out(machine, k)
-        measure_parts(machine, k, n)
-        base = at(count) + PARTS
-        length, speed = paid_out(machine, k, t, 0.0 * numbers[base + STRETCH])
-        # what is paid out is at the first end
-        numbers[base + STRETCH] -= length - numbers[RopeRow.UNSTRESSED]
-        numbers[base + RATE] -= speed
-        first, power = index[RopeRow.OUTPUT], 0.0 * speed
-        slip(machine, k)
-        for p in range(count - 1):
-            own = base + PART * p
-            stretch, rate, stiff = numbers[own + STRETCH], numbers[own + RATE], numbers[own + STIFF]
-            elastic, tension = 0.0 * stretch, 0.0 * stretch
-            if real(stretch) > 0.0:
-                elastic = stiff * stretch
-                damped = elastic + numbers[RopeRow.DAMPING] * stiff / numbers[RopeRow.STIFFNESS] * rate
-                tension = maximum(damped, 0.0 * damped)
-            control.stored[0] += 0.5 * elastic * stretch
-            # what slips takes power by the whole tension, as it acts on the bodies
-            slipped = numbers[own + SLIPPED]
-            control.power[1] += (tension - elastic) * rate + tension * slipped
-            power -= tension * (rate + slipped)
-            if p == 0:
-                control.power[0] -= tension * speed
-                power -= tension * speed
-                out[first], out[first + 2] = tension, stretch
-            if p == count - 2:
-                out[first + 3] = tension
-            if real(tension) > 0.0:
-                pull(machine, k, p, n, tension)
-        out[first + 1] = power
-    return OK
+    control, out, count, first = (
+        record.control,
+        record.outputs.value,
+        np.int64(index[RopeRow.COUNT]),
+        index[RopeRow.OUTPUT],
+    )
+    axle = lay_out(machine, k)
+    measure_parts(machine, k, axle)
+    base = at(count) + PARTS
+    length, speed = paid_out(machine, k, t, 0.0 * n[base + STRETCH])
+    # what is paid out is at the first end
+    n[base + STRETCH] -= length - n[RopeRow.UNSTRESSED]
+    n[base + RATE] -= speed
+    power = 0.0 * speed
+    slip(machine, k)
+    for p in range(count - 1):
+        own = n[base + PART * p : base + PART * (p + 1)]
+        elastic, tension = 0.0 * own[STRETCH], 0.0 * own[STRETCH]
+        if real(own[STRETCH]) > 0.0:
+            elastic = own[STIFF] * own[STRETCH]
+            damped = elastic + n[RopeRow.DAMPING] * own[STIFF] / n[RopeRow.STIFFNESS] * own[RATE]
+            tension = maximum(damped, 0.0 * damped)
+        control.stored[0] += 0.5 * elastic * own[STRETCH]
+        # what slips takes power by the whole tension, as it acts on the bodies
+        control.power[1] += (tension - elastic) * own[RATE] + tension * own[SLIPPED]
+        power -= tension * (own[RATE] + own[SLIPPED])
+        if p == 0:
+            control.power[0] -= tension * speed
+            power -= tension * speed
+            out[first], out[first + 2] = tension, own[STRETCH]
+        if p == count - 2:
+            out[first + 3] = tension
+        if real(tension) > 0.0:
+            pull(machine, k, p, axle, tension)
+    out[first + 1] = power

@@ -15,16 +15,14 @@ import numpy as np
 
 from nivel.elements.circuits.accumulators import Accumulator
 from nivel.elements.circuits.chambers import Actuator
-from nivel.elements.circuits.check_valves import CheckValve
+from nivel.elements.circuits.check_valves import CheckValve, CounterbalanceValve
 from nivel.elements.circuits.component import Component
 from nivel.elements.circuits.directional_valves import DirectionalValve
-from nivel.elements.circuits.holding_valves import CounterbalanceValve
 from nivel.elements.circuits.load_sensing import LoadSensing
 from nivel.elements.circuits.pilot_valves import PilotReducingValve
+from nivel.elements.circuits.pressure_valves import Compensator, ReducingValve, ReliefValve
 from nivel.elements.circuits.pumps import FlowSource, Pump
 from nivel.elements.circuits.ranges import PUMP_DISPLACEMENT
-from nivel.elements.circuits.reducing_valves import Compensator, ReducingValve
-from nivel.elements.circuits.relief_valves import ReliefValve
 from nivel.elements.circuits.rotary import RotaryMachine
 from nivel.elements.circuits.sections import Section
 from nivel.elements.circuits.spool_valves import SpoolValve

@@ -25,6 +25,7 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.algebra.vectors import axis, minus, plus
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf, stage
 
@@ -42,18 +43,6 @@ ROUND = 1e-12
 
 
 @leaf
-def axis(A, k):
-    """Column k."""
-    return A[0, k], A[1, k], A[2, k]
-
-
-@leaf
-def minus(x, y):
-    """x - y of 3-vectors."""
-    return x[0] - y[0], x[1] - y[1], x[2] - y[2]
-
-
-@leaf
 def middle_of(sums):
     """(middle, radius of gyration about it) of forces f at d, whose sums are Σ f, Σ f d, Σ f d²."""
     load = sums[0]
@@ -62,12 +51,6 @@ def middle_of(sums):
     # of one point it is round-off
     reach = np.sqrt(square) if real(square) > ROUND * real(sums[4] / load) else 0.0 * square
     return d, reach
-
-
-@leaf
-def plus(x, y):
-    """x + y of 3-vectors."""
-    return x[0] + y[0], x[1] + y[1], x[2] + y[2]
 
 
 @leaf

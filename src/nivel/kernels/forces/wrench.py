@@ -2,8 +2,22 @@
 
 from __future__ import annotations
 
+from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.algebra.vectors import minus
 from nivel.kernels.record.record import record_at
-from nivel.native.function import stage
+from nivel.native.function import leaf, stage
+
+
+@leaf
+def add_wrench(bodies, b, force, moment):
+    """Add a force and its moment about the origin of body b, global axes."""
+    F = bodies.wrench[b]
+    F[0] += force[0]
+    F[1] += force[1]
+    F[2] += force[2]
+    F[3] += moment[0]
+    F[4] += moment[1]
+    F[5] += moment[2]
 
 
 @stage
@@ -13,50 +27,45 @@ def add_coordinate_force(machine, q, effort):
     bodies, markers, coordinates = record.bodies, record.markers, record.coordinates
     for part in range(coordinates.start[q], coordinates.start[q + 1]):
         m = coordinates.part_marker[part]
-        J, u, F = coordinates.J[part], markers.u[m], bodies.wrench[markers.body[m]]
+        J, u = coordinates.J[part], markers.u[m]
         x, y, z = effort * J[0], effort * J[1], effort * J[2]
-        F[0] += x
-        F[1] += y
-        F[2] += z
-        F[3] += effort * J[3] + u[1] * z - u[2] * y
-        F[4] += effort * J[4] + u[2] * x - u[0] * z
-        F[5] += effort * J[5] + u[0] * y - u[1] * x
+        moment = (
+            effort * J[3] + u[1] * z - u[2] * y,
+            effort * J[4] + u[2] * x - u[0] * z,
+            effort * J[5] + u[0] * y - u[1] * x,
+        )
+        add_wrench(bodies, markers.body[m], (x, y, z), moment)
     return effort * coordinates.rate[q]
 
 
 @stage
-def add_marker_force(bodies, markers, m, x, y, z):
-    """Add a force at marker m, global axes; returns its power."""
-    u, v, F = markers.u[m], markers.rdot[m], bodies.wrench[markers.body[m]]
-    F[0] += x
-    F[1] += y
-    F[2] += z
-    F[3] += u[1] * z - u[2] * y
-    F[4] += u[2] * x - u[0] * z
-    F[5] += u[0] * y - u[1] * x
-    return x * v[0] + y * v[1] + z * v[2]
+def add_marker_force(bodies, markers, m, force):
+    """Add a force (3,) at marker m, global axes; returns its power."""
+    add_wrench(bodies, markers.body[m], force, cross(markers.u[m], force))
+    return dot(force, markers.rdot[m])
 
 
 @stage
-def add_force_at(bodies, b, p, x, y, z):
-    """Add a force on body b at the point p (3,), global; returns its power."""
-    R, V, w, F = bodies.R[b], bodies.Rdot[b], bodies.omega[b], bodies.wrench[b]
-    u0, u1, u2 = p[0] - R[0], p[1] - R[1], p[2] - R[2]
-    n0, n1, n2 = u1 * z - u2 * y, u2 * x - u0 * z, u0 * y - u1 * x
-    F[0] += x
-    F[1] += y
-    F[2] += z
-    F[3] += n0
-    F[4] += n1
-    F[5] += n2
-    return x * V[0] + y * V[1] + z * V[2] + n0 * w[0] + n1 * w[1] + n2 * w[2]
+def add_force_at(bodies, b, p, force):
+    """Add a force (3,) on body b at the point p (3,), global; returns its power."""
+    moment = cross(minus(p, bodies.R[b]), force)
+    add_wrench(bodies, b, force, moment)
+    V, w = bodies.Rdot[b], bodies.omega[b]
+    return force[0] * V[0] + force[1] * V[1] + force[2] * V[2] + moment[0] * w[0] + moment[1] * w[1] + moment[2] * w[2]
 
 
 @stage
-def add_torque(bodies, b, x, y, z):
-    """Add a torque on body b, global axes; returns its power."""
-    F, w = bodies.wrench[b], bodies.omega[b]
-    F[3] += x
-    F[4] += y
-    F[5] += z
-    return x * w[0] + y * w[1] + z * w[2]
+def add_torque(bodies, b, torque):
+    """Add a torque (3,) on body b, global axes; returns its power."""
+    F = bodies.wrench[b]
+    F[3] += torque[0]
+    F[4] += torque[1]
+    F[5] += torque[2]
+    return dot(torque, bodies.omega[b])
+
+
+@stage
+def velocity_at(bodies, b, p):
+    """Velocity of the point of body b that is at p."""
+    V, w, u = bodies.Rdot[b], bodies.omega[b], minus(p, bodies.R[b])
+    return V[0] + w[1] * u[2] - w[2] * u[1], V[1] + w[2] * u[0] - w[0] * u[2], V[2] + w[0] * u[1] - w[1] * u[0]

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.analytic import arctan2
-from nivel.kernels.algebra.spatial import cross
+from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.algebra.vectors import minus, plus, put, seen, turned
 from nivel.kernels.bodies.coordinate import measure
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import evaluate_function
@@ -25,12 +26,7 @@ EULER_ANGLES = 16
 @stage
 def angular_acceleration(bodies, b):
     """α of body b, global axes."""
-    A, a = bodies.A[b], bodies.alpha_b[b]
-    return (
-        A[0, 0] * a[0] + A[0, 1] * a[1] + A[0, 2] * a[2],
-        A[1, 0] * a[0] + A[1, 1] * a[1] + A[1, 2] * a[2],
-        A[2, 0] * a[0] + A[2, 1] * a[1] + A[2, 2] * a[2],
-    )
+    return turned(bodies.A[b], bodies.alpha_b[b])
 
 
 @stage
@@ -48,43 +44,32 @@ def motion_of(machine, m, kind):
     alpha = angular_acceleration(bodies, b)
     if kind == ANGULAR_ACCELERATION:
         return alpha
-    u, a, bias = markers.u[m], bodies.Rddot[b], markers.bias[m]
-    return (
-        a[0] + bias[0] + alpha[1] * u[2] - alpha[2] * u[1],
-        a[1] + bias[1] + alpha[2] * u[0] - alpha[0] * u[2],
-        a[2] + bias[2] + alpha[0] * u[1] - alpha[1] * u[0],
-    )
-
-
-@stage
-def less(a, b):
-    """a - b of tuples."""
-    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+    return plus(plus(bodies.Rddot[b], markers.bias[m]), cross(alpha, markers.u[m]))
 
 
 @stage
 def seen_from(machine, m, frame, kind):
     """A quantity of marker m relative to a moving marker, in global axes: derivatives are those that an observer on it sees."""
-    value = less(motion_of(machine, m, kind), motion_of(machine, frame, kind))
+    value = minus(motion_of(machine, m, kind), motion_of(machine, frame, kind))
     w = motion_of(machine, frame, ANGULAR_VELOCITY)
     if kind == VELOCITY:
-        value = less(value, cross(w, seen_offset(machine, m, frame)))
+        value = minus(value, cross(w, seen_offset(machine, m, frame)))
     elif kind == ACCELERATION:
         d = seen_offset(machine, m, frame)
-        v = less(less(motion_of(machine, m, VELOCITY), motion_of(machine, frame, VELOCITY)), cross(w, d))
+        v = minus(minus(motion_of(machine, m, VELOCITY), motion_of(machine, frame, VELOCITY)), cross(w, d))
         coriolis = cross(w, v)
-        value = less(value, cross(motion_of(machine, frame, ANGULAR_ACCELERATION), d))
-        value = less(less(less(value, cross(w, cross(w, d))), coriolis), coriolis)
+        value = minus(value, cross(motion_of(machine, frame, ANGULAR_ACCELERATION), d))
+        value = minus(minus(minus(value, cross(w, cross(w, d))), coriolis), coriolis)
     elif kind == ANGULAR_ACCELERATION:
-        turning = less(motion_of(machine, m, ANGULAR_VELOCITY), w)
-        value = less(value, cross(w, turning))
+        turning = minus(motion_of(machine, m, ANGULAR_VELOCITY), w)
+        value = minus(value, cross(w, turning))
     return value
 
 
 @stage
 def seen_offset(machine, m, frame):
     """r of marker m less that of the frame."""
-    return less(motion_of(machine, m, POSITION), motion_of(machine, frame, POSITION))
+    return minus(motion_of(machine, m, POSITION), motion_of(machine, frame, POSITION))
 
 
 @stage
@@ -97,11 +82,7 @@ def second_derivative(machine, q):
         m = coordinates.part_marker[part]
         b, u, J = markers.body[m], markers.u[m], coordinates.J[part]
         alpha = angular_acceleration(bodies, b)
-        a = bodies.Rddot[b]
-        total += J[0] * (a[0] + alpha[1] * u[2] - alpha[2] * u[1])
-        total += J[1] * (a[1] + alpha[2] * u[0] - alpha[0] * u[2])
-        total += J[2] * (a[2] + alpha[0] * u[1] - alpha[1] * u[0])
-        total += J[3] * alpha[0] + J[4] * alpha[1] + J[5] * alpha[2]
+        total += dot(J, plus(bodies.Rddot[b], cross(alpha, u))) + dot(J[3:], alpha)
     return total
 
 
@@ -143,12 +124,9 @@ def apply(machine, number, t):
         if kind <= ANGULAR_ACCELERATION:
             frame = sensors.columns[k, FRAME]
             if frame == NONE:
-                out[first], out[first + 1], out[first + 2] = motion_of(machine, what, kind)
+                put(out, first, motion_of(machine, what, kind))
             else:
-                x, y, z = seen_from(machine, what, frame, kind)
-                A = record.markers.A[frame]
-                for i in range(3):
-                    out[first + i] = A[0, i] * x + A[1, i] * y + A[2, i] * z
+                put(out, first, seen(record.markers.A[frame], seen_from(machine, what, frame, kind)))
         elif kind >= EULER_ANGLES:
             code = np.int64(kind) - EULER_ANGLES
             out[first], out[first + 1], out[first + 2] = euler_angles(machine, what, sensors.columns[k, FRAME], code)

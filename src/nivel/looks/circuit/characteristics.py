@@ -11,21 +11,23 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.elements.circuits import COMPONENTS
-from nivel.elements.circuits.check_valves import CheckValve
+from nivel.elements.circuits.check_valves import CheckValve, CounterbalanceValve
 from nivel.elements.circuits.component import Component, Rating
-from nivel.elements.circuits.directional_valves import DirectionalValve
+from nivel.elements.circuits.directional_valves import CENTRED, EDGES, DirectionalValve
 from nivel.elements.circuits.ejectors import Ejector
 from nivel.elements.circuits.flow_valves import FlowControl
 from nivel.elements.circuits.fluids import OIL, Fluid, Gas
-from nivel.elements.circuits.holding_valves import CounterbalanceValve
-from nivel.elements.circuits.orifices import Orifice
 from nivel.elements.circuits.pilot_valves import CartridgeValve
-from nivel.elements.circuits.reducing_valves import ReducingValve, SequenceValve
-from nivel.elements.circuits.relief_valves import CrossPortRelief, ReliefValve, UnloadingValve
-from nivel.elements.circuits.restrictions import CRITICAL_RATIO
+from nivel.elements.circuits.pressure_valves import (
+    CrossPortRelief,
+    ReducingValve,
+    ReliefValve,
+    SequenceValve,
+    UnloadingValve,
+)
+from nivel.elements.circuits.restrictions import CRITICAL_RATIO, Orifice
 from nivel.elements.circuits.sections import Section
 from nivel.elements.circuits.spool_valves import SpoolValve, conductances
-from nivel.elements.circuits.ways import CENTRED, EDGES
 from nivel.looks.circuit.composed_characteristics import (
     BAR,
     LITRE_PER_MINUTE,

@@ -7,9 +7,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.elements.circuits.check_valves import ShuttleValve
+from nivel.elements.circuits.check_valves import BrakeValve, ShuttleValve
 from nivel.elements.circuits.flow_valves import FlowDivider, PriorityValve
-from nivel.elements.circuits.holding_valves import BrakeValve
 from nivel.elements.circuits.pilot_valves import PilotReducingValve, PilotReliefValve
 from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array

@@ -223,7 +223,7 @@ def _saturated(result: Readable) -> Iterator[Saturation]:
     for valve in _components(result):
         name, kind = valve["name"], valve["type"]
         centred = kind == "section" or (
-            kind == "directional-valve" and valve["ways"] in nivel.elements.circuits.ways.CENTRED
+            kind == "directional-valve" and valve["ways"] in nivel.elements.circuits.directional_valves.CENTRED
         )
         if not centred and kind != "relief-valve":
             continue

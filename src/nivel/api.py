@@ -225,9 +225,7 @@ class Machine(Model):
         what: str,
         force: bool,
     ) -> tuple[str, ...]:
-        nivel.files.target.check_target(
-            path, what, force=force, sources=[Path(self.origin.file)] if self.origin.file else []
-        )
+        nivel.files.target.check_target(path, what, force=force, sources=self.origin.files)
         with retold(self.origin.placed):
             text, meshes, notes = written(self.record, f"{path.stem}-meshes")
         for name, content in meshes.items():
@@ -642,9 +640,8 @@ class Machine(Model):
             "coordinates": nivel.machine.settings.values.static_coordinates(simulation.coordinates),
         }
         chosen_duration = settings.get("duration") is not None
-        asked = nivel.machine.settings.values.settings_of(
-            nivel.machine.settings.analyses.StaticsSettings, "statics", own | _given(settings)
-        )
+        words = nivel.machine.settings.analyses.StaticsSettings
+        asked = nivel.machine.settings.values.settings_of(words, "statics", own | _given(settings))
         neutral, chosen = nivel.analysis.statics.free_coordinates.for_statics(self.record, asked)
         with retold(self.origin.placed):
             methods = nivel.analysis.plan.plan.methods_of(neutral, "newton-euler", chosen)
@@ -681,12 +678,10 @@ class Machine(Model):
         asked = nivel.machine.settings.analyses.kinematics_settings(self.record, settings)
         with retold(self.origin.placed):
             refuse(nivel.judge.before.refusals.faults_of(self.record, nivel.judge.before.analyses.OF_KINEMATICS))
-            nivel.analysis.plan.compilation.build(
-                nivel.analysis.plan.compilation.assembly_entries(self.record), listener
-            )
+            entries = nivel.analysis.plan.compilation.assembly_entries(self.record)
+            nivel.analysis.plan.compilation.build(entries, listener)
             machine, asked = nivel.analysis.kinematics.drive.driven(self.record, asked)
-            plain, chosen = nivel.analysis.plan.plan.neutral(machine, asked.coordinates)
-            methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", chosen)
+            _, methods = nivel.analysis.plan.plan.neutral(machine, asked.coordinates)
         self._refuse_target(out, force)
         entries = nivel.analysis.plan.compilation.kinematics_entries(methods)
         with self._compiled(entries, listener) as compile_seconds:  # what follows takes longer to import
@@ -716,8 +711,7 @@ class Machine(Model):
         """
         most = positions or nivel.machine.settings.values.POSITIONS
         settings = nivel.machine.settings.analyses.kinematics_settings(
-            self.record,
-            {"drive": coordinate, "end": 0.0, "positions": most, "coordinates": coordinates},
+            self.record, {"drive": coordinate, "end": 0.0, "positions": most, "coordinates": coordinates}
         )
         with self._assembled(listener):
             name = settings.drive
@@ -749,12 +743,7 @@ class Machine(Model):
             return nivel.analysis.kinematics.continuation.configuration_curve(self.record, name)
 
     @checked_arguments
-    def inverse(
-        self,
-        *,
-        listener: Listener | None = None,
-        **settings: Unpack[InverseSettingsDict],
-    ) -> Efforts:
+    def inverse(self, *, listener: Listener | None = None, **settings: Unpack[InverseSettingsDict]) -> Efforts:
         """Inverse dynamics: the efforts of actuators that make the machine follow a motion.
 
         settings : as the options of `nivel inverse`, with `limits` and `weights` by actuator; motion : a result, or its file. Of more
@@ -762,31 +751,23 @@ class Machine(Model):
         one. Of machines with friction drivers or the trajectory prescribe the coordinates of the actuators.
         Raises ModelError (nothing was computed), SolveError where the drivers' motion cannot be reached.
         """
-        asked = nivel.machine.settings.values.settings_of(
-            nivel.machine.settings.analyses.InverseSettings, "inverse", settings
-        )
+        words = nivel.machine.settings.analyses.InverseSettings
+        asked = nivel.machine.settings.values.settings_of(words, "inverse", settings)
         motion, trajectory, positions = asked.motion, asked.trajectory, asked.positions
         with retold(self.origin.placed):
             refuse(nivel.judge.before.refusals.faults_of(self.record, nivel.judge.before.analyses.OF_INVERSE))
-            record = (
-                self.record
-                if trajectory is None
-                else nivel.analysis.inverse.run.along_trajectory(self.record, trajectory)
-            )
+            record = self.record
+            if trajectory is not None:
+                record = nivel.analysis.inverse.run.along_trajectory(record, trajectory)
             wanted = nivel.analysis.inverse.actuators.actuation(record, asked)
             if nivel.analysis.inverse.actuators.rubs(record):
                 drivers = nivel.analysis.inverse.actuators.acting_drivers(record, wanted, recorded=motion is not None)
                 driven = Machine.from_record(nivel.analysis.inverse.actuators.driven_alone(record, wanted), self.origin)
                 followed = driven.kinematics(positions=positions, listener=listener)
-                return nivel.analysis.inverse.run.with_trust(
-                    nivel.analysis.inverse.actuators.efforts_of_drivers(wanted, drivers, followed),
-                    record.drivers,
-                    followed,
-                )
-            plain, _ = nivel.analysis.plan.plan.neutral(
-                nivel.analysis.inverse.run.without_actuators(record, wanted), "absolute"
-            )
-            methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", "absolute")
+                efforts = nivel.analysis.inverse.actuators.efforts_of_drivers(wanted, drivers, followed)
+                return nivel.analysis.inverse.run.with_trust(efforts, record.drivers, followed)
+            moved = nivel.analysis.inverse.run.without_actuators(record, wanted)
+            _, methods = nivel.analysis.plan.plan.neutral(moved, "absolute")
         if motion is None:
             followed = Machine.from_record(record, self.origin).kinematics(positions=positions, listener=listener)
         else:
@@ -811,8 +792,7 @@ class Machine(Model):
             record, left_out = nivel.analysis.plan.plan.without_sticking(self.record)
             faults = nivel.judge.before.analyses.not_smooth(record)
             refuse(each for each in faults if each.path.partition(".")[0] not in ("control", "states"))
-            plain, chosen = nivel.analysis.plan.plan.neutral(record, coordinates or "auto")
-            methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", chosen)
+            plain, methods = nivel.analysis.plan.plan.neutral(record, coordinates or "auto")
         with self._compiled(nivel.analysis.plan.compilation.linear_entries(methods), listener):
             return nivel.analysis.inverse.mechanics.Mechanics(
                 plain, nivel.analysis.run.prepared_state.at_start(methods), left_out
@@ -869,12 +849,7 @@ class Machine(Model):
         return self._mechanics.jacobian(point, q)
 
     @checked_arguments
-    def linearise(
-        self,
-        *,
-        listener: Listener | None = None,
-        **settings: Unpack[LineariseSettingsDict],
-    ) -> LinearModel:
+    def linearise(self, *, listener: Listener | None = None, **settings: Unpack[LineariseSettingsDict]) -> LinearModel:
         """The equations of motion made linear about a state: eigenvalues, modes, and A, B, C, D between inputs and outputs.
 
         settings : as the options of `nivel linearise`. about : `start`, `equilibrium` (at t = 0), or a time [s] to which it is run first.
@@ -885,37 +860,21 @@ class Machine(Model):
         (`CYLINDER.pressure_A`); default: sensors, or without any all joint coordinates and the pressures of volumes.
         Raises ModelError (nothing was computed) or SolveError.
         """
-        simulation = self.record.simulation
+        simulation, words = self.record.simulation, nivel.machine.settings.analyses
         own = {"coordinates": nivel.machine.settings.values.static_coordinates(simulation.coordinates)}
-        own |= (
-            {"about": nivel.machine.settings.analyses.EQUILIBRIUM}
-            if simulation.start == nivel.machine.settings.analyses.EQUILIBRIUM
-            else {}
-        )
-        asked = nivel.machine.settings.values.settings_of(
-            nivel.machine.settings.analyses.LineariseSettings, "linearise", own | _given(settings)
-        )
-        at_rest = asked.about == nivel.machine.settings.analyses.EQUILIBRIUM
+        own |= {"about": words.EQUILIBRIUM} if simulation.start == words.EQUILIBRIUM else {}
+        asked = nivel.machine.settings.values.settings_of(words.LineariseSettings, "linearise", own | _given(settings))
+        at_rest = asked.about == words.EQUILIBRIUM
         with retold(self.origin.placed):
-            refuse(
-                nivel.judge.before.analyses.not_smooth(
-                    self.record,
-                    may_slide=asked.about
-                    not in (nivel.machine.settings.analyses.EQUILIBRIUM, nivel.machine.settings.analyses.ROTATION),
-                )
-            )
+            may_slide = asked.about not in (words.EQUILIBRIUM, words.ROTATION)
+            refuse(nivel.judge.before.analyses.not_smooth(self.record, may_slide=may_slide))
             inputs = nivel.analysis.linearise.ports.opened(self.record, asked.inputs, asked.time)
-            plain, chosen = nivel.analysis.plan.plan.neutral(
-                inputs.machine,
-                asked.coordinates,
-                nivel.machine.settings.analyses.EQUILIBRIUM if at_rest else "as-given",
-            )
-            methods = nivel.analysis.plan.plan.methods_of(plain, "newton-euler", chosen)
+            start = words.EQUILIBRIUM if at_rest else "as-given"
+            plain, methods = nivel.analysis.plan.plan.neutral(inputs.machine, asked.coordinates, start)
         entries = nivel.analysis.plan.compilation.linear_entries(methods)
         if at_rest:
-            entries += nivel.analysis.plan.compilation.statics_entries(
-                nivel.analysis.statics.start.methods_at_rest(plain)
-            )
+            resting = nivel.analysis.statics.start.methods_at_rest(plain)
+            entries += nivel.analysis.plan.compilation.statics_entries(resting)
         run = None
         if asked.time > 0.0:
             run = self.with_settings({"duration": asked.time})._plan(())
@@ -969,8 +928,7 @@ class Machine(Model):
     def _refuse_target(self, out: str | PathLike[str] | None, force: bool) -> None:
         """Refuse a result file that cannot be written, before anything is compiled. Raises ModelError."""
         if out is not None:
-            sources = [Path(self.origin.file)] if self.origin.file else []
-            nivel.files.target.check_target(Path(fspath(out)), "result file", force=force, sources=sources)
+            nivel.files.target.check_target(Path(fspath(out)), "result file", force=force, sources=self.origin.files)
 
     @contextmanager
     def _compiled(self, entries: Sequence[Entry], listener: Listener | None) -> Iterator[float]:
@@ -1091,15 +1049,8 @@ def import_model(
     meshes are read. What is not translated is listed by `nivel import`.
     Raises ModelError with every fault of the model, each with its line.
     """
-    record = nivel.exchange.translated_machine(
-        fspath(path),
-        base=base,
-        package_paths=[Path(fspath(each)) for each in package_paths],
-        contacts=contacts,
-        keyframe=keyframe,
-        include_paths=[Path(fspath(each)) for each in include_paths],
-    )
-    return Machine.from_record(record)
+    given = {name: each for name, each in locals().items() if name != "path"}
+    return Machine.from_record(nivel.exchange.translated_machine(fspath(path), **given))
 
 
 @checked_arguments

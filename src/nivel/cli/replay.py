@@ -60,9 +60,8 @@ def command(
     length = f"{chosen.ticks} ticks, {chosen.ticks * stored.pace.tick:.6g} s"
     with progress_listener(quiet) as listener:
         if settings:
-            other = nivel.live.replay.rerun(
-                stored, chosen, settings, verify=True, out=target, force=force, listener=listener
-            )
+            machine = nivel.api.Machine.from_record(nivel.live.replay.machine_of(stored, chosen))
+            other = machine.simulate(**settings, out=target, force=force, listener=listener)
             say(f"{stored.machine.name}: {length} again by other methods; {_trust(other)}\nresult: {target}")
             return
         done = nivel.live.replay.replay(stored, chosen, out=target, force=force, listener=listener)

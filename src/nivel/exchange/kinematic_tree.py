@@ -102,8 +102,7 @@ def kinematic_tree(machine: MachineRecord) -> KinematicTree:
     rotors = _rotors(tree)
     faults = [
         Fault.at(
-            f"joints.{joint.name}",
-            f"a joint of type {joint.type} cannot be written; there are {', '.join(IN_TREE)}",
+            f"joints.{joint.name}", f"a joint of type {joint.type} cannot be written; there are {', '.join(IN_TREE)}"
         )
         for joint in machine.joints
         if joint.type not in IN_TREE and joint.type != "variable-distance"

@@ -392,11 +392,7 @@ class _Reader:
 def _leave(m: Any, mechanism: Mechanism, *, without: bool) -> None:
     """Note what no part of the reader has asked for."""
     notes = mechanism.notes
-    for count, what in (
-        (m.nflex, "flexible elements"),
-        (m.nsensor, "sensors"),
-        (m.nplugin, "plugins"),
-    ):
+    for count, what in ((m.nflex, "flexible elements"), (m.nsensor, "sensors"), (m.nplugin, "plugins")):
         if count:
             notes.leave(f"{what} ({count})", acts=what != "sensors")
     if without and np.any((m.geom_contype > 0) | (m.geom_conaffinity > 0)):

@@ -77,24 +77,9 @@ def read_model(
     return machine_of(mechanism, path.name, drawing)
 
 
-def translated_machine(
-    file: str | Path,
-    *,
-    base: Base | None = None,
-    package_paths: Sequence[str | Path] = (),
-    contacts: Contacts = "all",
-    keyframe: str | None = None,
-    include_paths: Sequence[str | Path] = (),
-) -> MachineRecord:
-    """The machine that a file of another program describes; meshes are in it. Raises ModelError."""
-    translation = read_model(
-        file,
-        base=base,
-        package_paths=package_paths,
-        contacts=contacts,
-        keyframe=keyframe,
-        include_paths=include_paths,
-    )
+def translated_machine(file: str | Path, **given: Any) -> MachineRecord:
+    """The machine that a file of another program describes; meshes are in it. given : as of `read_model`. Raises ModelError."""
+    translation = read_model(file, **given)
     shapes = [each["shape"] for each in translation.data.get("markers", {}).values() if "shape" in each]
     for shape in [*_meshes(translation.data), *(each for each in shapes if each["type"] == "mesh")]:
         made = translation.meshes.get(shape["file"])

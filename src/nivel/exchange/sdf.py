@@ -8,18 +8,7 @@ import numpy as np
 
 from nivel.exchange.contacts import LEFT, add_solid
 from nivel.exchange.looks import look_of
-from nivel.exchange.mechanism import (
-    WORLD,
-    Array,
-    Connection,
-    Frame,
-    Inertial,
-    Link,
-    Look,
-    Mechanism,
-    Surface,
-    turned,
-)
+from nivel.exchange.mechanism import WORLD, Array, Connection, Frame, Inertial, Link, Look, Mechanism, Surface, turned
 from nivel.exchange.translation import Notes
 from nivel.exchange.urdf import digits
 from nivel.files.xml_source import Document, Element
@@ -35,16 +24,7 @@ KINDS: Final = {
     "screw": "screw",
     "revolute2": "revolute",
 }
-KNOWN: Final = (
-    "pose",
-    "link",
-    "joint",
-    "frame",
-    "static",
-    "self_collide",
-    "enable_wind",
-    "allow_auto_disable",
-)
+KNOWN: Final = ("pose", "link", "joint", "frame", "static", "self_collide", "enable_wind", "allow_auto_disable")
 GRAVITY: Final = (0.0, 0.0, -9.8)
 GRIPS: Final = 10.0  # friction in place of one without limit
 LIMITLESS: Final = f"friction below zero is without limit: {GRIPS:g} is written"

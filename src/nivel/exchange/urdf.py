@@ -8,17 +8,7 @@ import numpy as np
 
 from nivel.exchange.contacts import LEFT, add_solid
 from nivel.exchange.looks import look_of
-from nivel.exchange.mechanism import (
-    WORLD,
-    Connection,
-    Frame,
-    Inertial,
-    Link,
-    Look,
-    Mechanism,
-    Surface,
-    turned,
-)
+from nivel.exchange.mechanism import WORLD, Connection, Frame, Inertial, Link, Look, Mechanism, Surface, turned
 from nivel.exchange.translation import Notes
 from nivel.files.xml_source import Document, Element
 

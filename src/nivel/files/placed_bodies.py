@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from nivel.elements.beams.beam import Beam
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
-from nivel.files.placement import AXIAL, AXIAL_Z, POLAR_Z, Placement, Scene, triple
+from nivel.files.placement import AXIAL, AXIAL_Z, POLAR_Z, Placement, Scene, by_rules, triple
 from nivel.files.substitution import NotRepresentableError
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import Inertia
@@ -32,24 +33,19 @@ def placed_body(body: Body, placing: Placement) -> Body:
     position, parameters = placement(body)
     if not placing.turns:
         return _moved_body(body, placing)
-    changes: dict[str, Any] = {
-        "position": placing.point(position),
-        "velocity": placing.direction(body.velocity),
-    }
-    if body.shape is not None:
-        changes["shape"] = _placed_shape(body.shape, placing)
+    changes: dict[str, Any] = {"position": placing.point(position)} | by_rules(
+        body,
+        velocity=placing.direction,
+        angular_velocity=placing.turning,
+        angular_velocity_body=placing.turning_in_body,
+        centre_of_mass=placing.in_body,
+        inertia=partial(_mirrored_inertia, placing),
+        shape=lambda shape: _placed_shape(shape, placing),
+    )
     if body.looks:
         changes["looks"] = tuple(_placed_shape(each, placing) for each in body.looks)
     if not body.point_mass:
         changes["orientation"] = placing.body_frame(matrix_from_euler_parameters(parameters))
-    if body.angular_velocity is not None:
-        changes["angular_velocity"] = placing.turning(body.angular_velocity)
-    if body.angular_velocity_body is not None:
-        changes["angular_velocity_body"] = placing.turning_in_body(body.angular_velocity_body)
-    if body.centre_of_mass is not None:
-        changes["centre_of_mass"] = placing.in_body(body.centre_of_mass)
-    if body.inertia is not None:
-        changes["inertia"] = _mirrored_inertia(body.inertia, placing)
     return body.replace(**changes)
 
 
@@ -60,15 +56,12 @@ def placed_beam(beam: Beam, placing: Placement) -> Beam:
     """
     if placing.mirrored:
         raise NotRepresentableError("a beam cannot be mirrored; write it out where it is to be")
-    changes: dict[str, Any] = {
-        "from_": placing.point(beam.from_),
-        "to": placing.point(beam.to),
-        "through": tuple(placing.point(point) for point in beam.through),
-        "velocity": placing.direction(beam.velocity),
-        "angular_velocity": placing.turning(beam.angular_velocity),
-    }
-    if beam.via is not None:
-        changes["via"] = placing.point(beam.via)
+    changes = {"through": tuple(map(placing.point, beam.through))} | by_rules(
+        beam,
+        **dict.fromkeys(("from_", "to", "via"), placing.point),
+        velocity=placing.direction,
+        angular_velocity=placing.turning,
+    )
     if not placing.turns:
         return beam.replace(**changes)
     if beam.up is not None:
@@ -135,7 +128,7 @@ def _placed_mesh(mesh: Mesh, placing: Placement) -> Mesh:
     return Mesh(file=mesh.file, surface=surface, colour=mesh.colour, convex_parts=mesh.convex_parts, parts=parts)
 
 
-def _mirrored_inertia(inertia: Inertia, placing: Placement) -> Inertia:
+def _mirrored_inertia(placing: Placement, inertia: Inertia) -> Inertia:
     """Products change their sign where one of their axes is mirrored and the other is not."""
     x, y, z = (float(each) for each in placing.reflection)
     return inertia.replace(xy=inertia.xy * x * y + 0.0, xz=inertia.xz * x * z + 0.0, yz=inertia.yz * y * z + 0.0)
@@ -144,15 +137,11 @@ def _mirrored_inertia(inertia: Inertia, placing: Placement) -> Inertia:
 def placed_joint(joint: Joint, scene: Scene) -> Joint:
     """`joint` in the placed part. Its coordinates keep their meaning, but for what `Scene.is_opposite` names."""
     placing = scene.placement
-    changes: dict[str, Any] = {}
+    changes = by_rules(joint, point=placing.point, points=lambda both: tuple(map(placing.point, both)))
     if joint.markers is not None:
         first, second = joint.markers
         kept = KEPT[JOINTS[joint.type].mirror]
         changes["markers"] = (scene.end(first, kept), scene.end(second, kept))
-    if joint.point is not None:
-        changes["point"] = placing.point(joint.point)
-    if joint.points is not None:
-        changes["points"] = (placing.point(joint.points[0]), placing.point(joint.points[1]))
     if placing.turns:
         changes |= _placed_axes(joint, placing)
     if placing.mirrored and joint.pitch is not None:

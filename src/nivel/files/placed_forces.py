@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from nivel.elements.forces.shafts import BeltDrive, DriveLine, Shaft
 from nivel.elements.forces.spring_series import SpringSeries
 from nivel.elements.forces.springs import JointSpringDamper, SpringDamper, ThreeAxisSpring, TorsionalSpringDamper
 from nivel.elements.forces.tyre import Tyre
-from nivel.files.placement import AXIAL_Z, POLAR_Z, Scene
+from nivel.files.placement import AXIAL_Z, POLAR_Z, Scene, by_rules
 from nivel.files.substitution import Linear, NotRepresentableError, mixed, negative, substituted
 from nivel.machine.core.between import Between, BetweenMany, Ends
 from nivel.machine.core.element import ForceElement
@@ -148,16 +149,10 @@ def _many_ends(force: BetweenMany, scene: Scene) -> Changes:
     """Its `node` is a point like its ends, and around its `axis` a rope keeps the sense in which it runs."""
     placing = scene.placement
     changes: Changes = {name: scene.varied(value) for name, value in force if isinstance(value, (Table, *_FUNCTIONS))}
-    for name, placed in (("axis", placing.turning), ("node", placing.point)):
-        if getattr(force, name, None) is not None:
-            changes[name] = placed(getattr(force, name))
+    changes |= by_rules(force, axis=placing.turning, node=placing.point)
     if force.markers is not None:
         return {"markers": tuple(scene.end(each) for each in force.markers), **changes}
     return {"points": tuple(placing.point(point) for point in force.points or ()), **changes}
-
-
-def _spring_series(force: SpringSeries, scene: Scene) -> Changes:
-    return placed_ends(force, scene, with_axes=False)
 
 
 def _on_coordinate(force: JointSpringDamper | Motor | Servo | Stop | Friction, scene: Scene) -> Changes:
@@ -175,11 +170,8 @@ def _on_coordinate(force: JointSpringDamper | Motor | Servo | Stop | Friction, s
                 deflections, efforts = ([-each + 0.0 for each in reversed(column)] for column in force.table.points)
                 changes["table"] = force.table.replace(deflections=deflections, efforts=efforts)
             if force.law is not None:
-                changes = {
-                    "law": negative(
-                        substituted(changes["law"], lambda path: Linear(((-1.0, path),)), local=("value", "rate"))
-                    )
-                }
+                turned = substituted(changes["law"], lambda path: Linear(((-1.0, path),)), local=("value", "rate"))
+                changes = {"law": negative(turned)}
         case Stop():
             changes |= {
                 "lower": None if force.upper is None else -force.upper + 0.0,
@@ -218,7 +210,7 @@ def _of_brake(force: Brake | TransmissionLoss, scene: Scene) -> Changes:
 
 def _varied(force: Record, scene: Scene, *fields: str) -> Changes:
     """The functions of a force with the signals of the placed part."""
-    return {field: scene.varied(value) for field in fields if (value := getattr(force, field)) is not None}
+    return by_rules(force, **dict.fromkeys(fields, scene.varied))
 
 
 _RULES: dict[type[Record], Callable[[Any, Scene], Changes]] = {
@@ -238,7 +230,7 @@ _RULES: dict[type[Record], Callable[[Any, Scene], Changes]] = {
     Contact: _contact,
     BetweenMany: _many_ends,
     Tyre: _tyre,
-    SpringSeries: _spring_series,
+    SpringSeries: partial(placed_ends, with_axes=False),
     DriveLine: _of_drive_line,
     BeltDrive: _of_belt,
     Brake: _of_brake,

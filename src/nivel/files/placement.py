@@ -15,7 +15,7 @@ Where P mirrors, F turns one axis around (or all three), since the mere image R 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import Any, Final
 
@@ -124,6 +124,11 @@ class Placement:
         flip = np.array(kept) if self.mirrored else np.ones(3)
         image = (self.polar if on_ground else np.diag(self.reflection)) @ axes
         return orientation_of(image * flip)
+
+
+def by_rules(record: Any, **rules: Callable[[Any], Any]) -> dict[str, Any]:
+    """The fields of a record that are given, each by its rule."""
+    return {name: rule(value) for name, rule in rules.items() if (value := getattr(record, name, None)) is not None}
 
 
 def orientation_of(axes: Array) -> Orientation:

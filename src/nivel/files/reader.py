@@ -110,6 +110,11 @@ class Origin:
         return replace(self, source="", outside=frozenset(), values={})
 
     @property
+    def files(self) -> list[FilePath]:
+        """Files that are read, and must not be written over."""
+        return [FilePath(self.file)] if self.file else []
+
+    @property
     def settings_outside(self) -> frozenset[str]:
         """Names of the simulation settings that were set from outside of the file."""
         return frozenset(path.split(".")[1] for path in self.outside if path.startswith("simulation."))

@@ -111,11 +111,7 @@ def _has_contacts(tree: Tree) -> bool:
 
 
 def _tree_of(
-    text: str,
-    file: str,
-    sources: Sources,
-    overrides: Mapping[str, object],
-    user: tuple[Tree, str, Assembly] | None,
+    text: str, file: str, sources: Sources, overrides: Mapping[str, object], user: tuple[Tree, str, Assembly] | None
 ) -> tuple[Tree, Parameters]:
     """The file with all that it includes and what was set from outside, and the values of its parameters."""
     tree = read_tree(text, file)

@@ -57,11 +57,7 @@ class StudyFile:
 
 
 def study_and_faults(
-    text: str,
-    file: str,
-    *,
-    overrides: Mapping[str, object] | None = None,
-    allow_code: bool = False,
+    text: str, file: str, *, overrides: Mapping[str, object] | None = None, allow_code: bool = False
 ) -> tuple[StudyFile | None, list[Fault]]:
     """The study of a text, without its entries that are wrong by themselves, and all that is wrong in it; None where nothing can be held
     against a machine. Raises ModelError where it is no study of this format."""

@@ -50,19 +50,10 @@ def environment(
 
     An event with `stop: true` terminates an episode, as does a step that fails, with `failure` in the information. Raises ModelError.
     """
+    given = {name: each for name, each in locals().items() if name != "machine"}
     require("environments for reinforcement learning need", "gymnasium")
-    return nivel.gym.machine_environment.MachineEnvironment(
-        machine if isinstance(machine, Machine) else load(machine),
-        reward=reward,
-        observe=observe,
-        actions=actions,
-        every=every,
-        duration=duration,
-        vary=vary or {},
-        scaled=scaled,
-        record=record,
-        settings=settings or {},
-    )
+    made = machine if isinstance(machine, Machine) else load(machine)
+    return nivel.gym.machine_environment.MachineEnvironment(made, **given)
 
 
 @checked_arguments

@@ -42,13 +42,13 @@ class MachineEnvironment(gymnasium.Env[Any, Any]):
         actions: Sequence[str] | None,
         every: float | str | None,
         duration: float | str | None,
-        vary: Mapping[str, Sequence[float | str]],
+        vary: Mapping[str, Sequence[float | str]] | None,
         scaled: bool,
         record: bool,
-        settings: Mapping[str, Any],
+        settings: Mapping[str, Any] | None,
     ) -> None:
-        self._machine, self._settings, self._record = machine, dict(settings), record
-        self._vary = _ranges(machine, vary)
+        self._machine, self._settings, self._record = machine, dict(settings or {}), record
+        self._vary = _ranges(machine, vary or {})
         self.simulation: Simulation = self._started({})
         self._begin: Snapshot = self.simulation.state
         self._reward = reward_of(reward, self.simulation)

@@ -94,12 +94,7 @@ class Datagrams:
     """
 
     def __init__(
-        self,
-        session: Session,
-        listen: Place | None,
-        send: Place | None,
-        *,
-        clock: Callable[[], float] = time.monotonic,
+        self, session: Session, listen: Place | None, send: Place | None, *, clock: Callable[[], float] = time.monotonic
     ) -> None:
         self.counts = Counts()
         self._session, self._to, self._clock = session, send, clock

@@ -82,7 +82,7 @@ def export_page(
     file is there already.
     """
     target = Path(os.fspath(path))
-    check_target(target, "page", force=force, sources=[Path(machine.origin.file)] if machine.origin.file else [])
+    check_target(target, "page", force=force, sources=machine.origin.files)
     with _planned(machine := machine.with_settings(settings), settings, tick) as (plan, pace):
         build([*run_entries(plan), drive], listener)
         if not parameters:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from os import PathLike
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,6 @@ from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.dynamics import RunOutcome, counts_of
 from nivel.analysis.run.simulate import close_run
-from nivel.api import Machine
 from nivel.errors import ModelError
 from nivel.files.target import check_target
 from nivel.integrate.loop.paced import DONE, FROM_TAPE, SHOWN, TICKS, drive
@@ -157,18 +156,3 @@ def _frames_of(again: LiveRun, tape: Array, outcome: RunOutcome) -> Iterator[Arr
         outcome.outcome = "failed"
         message, advice = failure(Stop(again.prepared.motion, status, at, float(run.clock[STEP]), run.previous))
         outcome.failure = message, advice, at
-
-
-def rerun(
-    recording: Recording,
-    take: Take,
-    settings: Mapping[str, Any],
-    *,
-    verify: bool = False,
-    out: str | PathLike[str] | None = None,
-    force: bool = False,
-    listener: Listener | None = None,
-) -> Result:
-    """The inputs of the take again, by other methods. verify : as of `Machine.simulate`. Raises ModelError, SolveError."""
-    machine = Machine.from_record(machine_of(recording, take))
-    return machine.simulate(**settings, verify=verify, out=out, force=force, listener=listener)

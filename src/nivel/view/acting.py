@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Final
 
+from nivel.lazy import dataclass
 from nivel.view.coordinate_places import coordinate_place, triple
 from nivel.view.records import Body, Force, ForceLook, Joint, Triple, Winding
 
@@ -19,43 +20,57 @@ AT_JOINT: Final[dict[str, tuple[ForceLook, ForceLook]]] = {
 HELD: Final[tuple[ForceLook, ForceLook]] = ("ring", "slide")  # of friction, stops and whatever else works there
 
 
-def forces(
-    scene: dict[str, Any], record: dict[str, Any], places: dict[str, int], bodies: list[Body], joints: list[Joint]
-) -> list[Force]:
-    """All force elements, in the order of the machine. record : of the machine, which may be empty."""
-    drawn = {force["name"]: force for force in scene.get("forces", [])}
-    records = {force["name"]: force for force in record.get("forces", [])}
-    out = []
-    for name in {**records, **drawn}:
-        known = records.get(name, {})
-        if name in drawn:
-            out.append(_between(drawn[name], known, places))
-        else:
-            kind = str(known.get("type", "force"))
-            out.append(_elsewhere(name, kind, known, record, places, bodies, joints))
-    return out
+@dataclass(frozen=True)
+class Acted:
+    """What forces act on: bodies and joints of a machine. record : of the machine, which may be empty. `places` : bodies, -1 the ground."""
 
+    scene: dict[str, Any]
+    record: dict[str, Any]
+    bodies: list[Body]
+    joints: list[Joint]
+    places: dict[str, int]
 
-def drivers(record: dict[str, Any], places: dict[str, int], bodies: list[Body], joints: list[Joint]) -> list[Force]:
-    """The drivers, each at its joint or marker."""
-    return [
-        _elsewhere(each["name"], "driver", each, record, places, bodies, joints) for each in record.get("drivers", [])
-    ]
+    def all_forces(self) -> list[Force]:
+        """All force elements, in the order of the machine."""
+        drawn = {force["name"]: force for force in self.scene.get("forces", [])}
+        records = {force["name"]: force for force in self.record.get("forces", [])}
+        out = []
+        for name in {**records, **drawn}:
+            known = records.get(name, {})
+            if name in drawn:
+                out.append(_between(drawn[name], known, self.places))
+            else:
+                out.append(self._elsewhere(name, str(known.get("type", "force")), known))
+        return out
 
+    def all_drivers(self) -> list[Force]:
+        """The drivers, each at its joint or marker."""
+        return [self._elsewhere(each["name"], "driver", each) for each in self.record.get("drivers", [])]
 
-def place_of(
-    known: dict[str, Any], record: dict[str, Any], places: dict[str, int], bodies: list[Body]
-) -> tuple[int, Triple] | None:
-    """Body and point of what stands at a marker, or at a body: a torque at the centre of mass; None on the ground."""
-    marker = known.get("marker") or known.get("wheel")
-    if isinstance(marker, str):
-        marker = next((each for each in record.get("markers", []) if each.get("name") == marker), None)
-    named = marker if isinstance(marker, dict) else known
-    body = places.get(str(named.get("body")), -1)
-    if body < 0:
-        return None
-    at_centre = known.get("type") == "torque"
-    return body, triple(bodies[body].centre_of_mass if at_centre else named.get("position") or (0, 0, 0))
+    def place_of(self, known: dict[str, Any]) -> tuple[int, Triple] | None:
+        """Body and point of what stands at a marker, or at a body: a torque at the centre of mass; None on the ground."""
+        marker = known.get("marker") or known.get("wheel")
+        if isinstance(marker, str):
+            marker = next((each for each in self.record.get("markers", []) if each.get("name") == marker), None)
+        named = marker if isinstance(marker, dict) else known
+        body = self.places.get(str(named.get("body")), -1)
+        if body < 0:
+            return None
+        at_centre = known.get("type") == "torque"
+        return body, triple(self.bodies[body].centre_of_mass if at_centre else named.get("position") or (0, 0, 0))
+
+    def _elsewhere(self, name: str, kind: str, known: dict[str, Any]) -> Force:
+        """What acts on one body, or on a joint coordinate; without a place where that is not known."""
+        words = ("body", "marker", "wheel", "plane", "coordinate")
+        facts = [("type", kind), *((word, str(known[word])) for word in words if isinstance(known.get(word), str))]
+        at = coordinate_place(known.get("coordinate"), self.joints)
+        if at is not None:
+            look = AT_JOINT.get(kind, HELD)[at.kind == "length"]
+            return Force(name, kind, list(at.joint.bodies), list(at.joint.points), at.axis, look, facts)
+        place = self.place_of(known)
+        if place is None:
+            return Force(name, kind, [], facts=facts)
+        return Force(name, kind, [place[0]], [place[1]], None, "dot", facts)
 
 
 def _between(force: dict[str, Any], known: dict[str, Any], places: dict[str, int]) -> Force:
@@ -74,32 +89,6 @@ def _winding(wheels: dict[str, Any]) -> Winding:
     first, last = wheels["fixed"]
     radii, arcs = ([float(each) for each in wheels[key]] for key in ("radii", "arcs"))
     return Winding(triple(wheels["axis"]), int(wheels["carrier"]), radii, arcs, (triple(first), triple(last)))
-
-
-def _elsewhere(
-    name: str,
-    kind: str,
-    known: dict[str, Any],
-    record: dict[str, Any],
-    places: dict[str, int],
-    bodies: list[Body],
-    joints: list[Joint],
-) -> Force:
-    """What acts on one body, or on a joint coordinate; without a place where that is not known."""
-    words = [
-        (word, str(known[word]))
-        for word in ("body", "marker", "wheel", "plane", "coordinate")
-        if isinstance(known.get(word), str)
-    ]
-    facts = [("type", kind), *words]
-    at = coordinate_place(known.get("coordinate"), joints)
-    if at is not None:
-        look = AT_JOINT.get(kind, HELD)[at.kind == "length"]
-        return Force(name, kind, list(at.joint.bodies), list(at.joint.points), at.axis, look, facts)
-    place = place_of(known, record, places, bodies)
-    if place is None:
-        return Force(name, kind, [], facts=facts)
-    return Force(name, kind, [place[0]], [place[1]], None, "dot", facts)
 
 
 def _look(force: dict[str, Any], record: dict[str, Any]) -> ForceLook:

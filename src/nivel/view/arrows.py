@@ -16,7 +16,6 @@ import numpy as np
 from nivel.lazy import dataclass
 from nivel.looks.poses import rotation
 from nivel.machine.core.vectors import Array
-from nivel.view.acting import place_of
 from nivel.view.coordinate_places import coordinate_place
 from nivel.view.records import Arrow, Force, Joint, Triple
 from nivel.view.stage import Cast
@@ -166,7 +165,7 @@ def _load(
     cast: Cast, moments: Moments, record: dict[str, Any], magnitude: Array, power: Array, read: Read
 ) -> Iterator[Traced]:
     """A force or torque on one body. Its direction is known where it is constant, or has one component only."""
-    place = place_of(record, cast.record, cast.places, cast.bodies)
+    place = cast.place_of(record)
     if place is None:
         return
     body, point = place

@@ -9,12 +9,12 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.elements.joints import drawn
-from nivel.lazy import dataclass, field, replace
+from nivel.lazy import dataclass, replace
 from nivel.looks.poses import slides_on_beam, stands_at_second
 from nivel.looks.solids import colour_of, colour_of_body, held_points, link_ends, shapes_of
 from nivel.machine.bodies.surface import surface_arrays
 from nivel.machine.core.vectors import Array
-from nivel.view.acting import drivers, forces
+from nivel.view.acting import Acted
 from nivel.view.coordinate_places import triple
 from nivel.view.package import Block
 from nivel.view.records import Body, Flexible, Force, Joint, Marker, Part, Sweep
@@ -40,19 +40,14 @@ MOMENTS: Final = 100  # that are looked at for the largest displacement
 
 
 @dataclass(frozen=True)
-class Cast:
-    """A machine's elements as the page draws them, and where they are found by name. `places` : bodies, -1 the ground."""
+class Cast(Acted):
+    """A machine's elements as the page draws them, and where they are found by name."""
 
-    scene: dict[str, Any]
-    record: dict[str, Any]
-    bodies: list[Body]
-    joints: list[Joint]
     forces: list[Force]
     drivers: list[Force]
     markers: list[Marker]
     sweeps: list[Sweep]
     surroundings: list[Part]
-    places: dict[str, int] = field(default_factory=dict)
 
     @property
     def lists(self) -> dict[str, Any]:
@@ -71,18 +66,14 @@ def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
         else _body(scene, body, colour_of_body(body, k), block, automatic=not body.get("flexible"))
         for k, body in enumerate(bodies)
     ]
-    joints = [_joint(joint, places) for joint in scene.get("joints", [])]
+    acted = Acted(scene, record, drawn, [_joint(joint, places) for joint in scene.get("joints", [])], places)
     return Cast(
-        scene,
-        record,
-        drawn,
-        joints,
-        forces(scene, record, places, drawn, joints),
-        drivers(record, places, drawn, joints),
-        [_marker(each, places) for each in scene.get("markers", []) if each["body"] != "ground"],
-        [_sweep(each, places) for each in scene.get("sweeps", [])],
-        [part(each, block) for each in scene.get("surroundings", [])],
-        places,
+        **vars(acted),
+        forces=acted.all_forces(),
+        drivers=acted.all_drivers(),
+        markers=[_marker(each, places) for each in scene.get("markers", []) if each["body"] != "ground"],
+        sweeps=[_sweep(each, places) for each in scene.get("sweeps", [])],
+        surroundings=[part(each, block) for each in scene.get("surroundings", [])],
     )
 
 

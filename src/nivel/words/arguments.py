@@ -14,18 +14,7 @@ from operator import or_
 from os import PathLike
 from sys import float_info
 from types import FunctionType, NoneType, UnionType
-from typing import (
-    Any,
-    Final,
-    Literal,
-    ParamSpec,
-    TypeVar,
-    Union,
-    get_args,
-    get_origin,
-    get_type_hints,
-    is_typeddict,
-)
+from typing import Any, Final, Literal, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints, is_typeddict
 
 from nivel.errors import Fault, refuse
 from nivel.lazy import dataclass

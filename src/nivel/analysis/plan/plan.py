@@ -239,8 +239,8 @@ def without_sticking(machine: MachineRecord) -> tuple[MachineRecord, tuple[str, 
     return (machine.replace(forces=forces) if left else machine), left
 
 
-def neutral(machine: MachineRecord, coordinates: str, start: str = "as-given") -> tuple[MachineRecord, str]:
-    """The machine in these coordinates, with settings of no method, and the coordinates that were chosen."""
+def neutral(machine: MachineRecord, coordinates: str, start: str = "as-given") -> tuple[MachineRecord, Methods]:
+    """The machine in these coordinates, with settings of no method, and where its equations are. Raises ModelError."""
     machine = with_smooth_contacts(machine)
     given = machine.simulation
     step, interval = min(given.step, given.duration), given.output_interval
@@ -262,4 +262,5 @@ def neutral(machine: MachineRecord, coordinates: str, start: str = "as-given") -
     # joint coordinates measure what spins
     joined = coordinates == "auto" and machine.joints and not machine.is_flexible and not machine.beams
     chosen = "relative" if joined else choose_coordinates(changed)
-    return changed.replace(simulation=simulation.replace(coordinates=chosen)), chosen
+    plain = changed.replace(simulation=simulation.replace(coordinates=chosen))
+    return plain, methods_of(plain, "newton-euler", chosen)

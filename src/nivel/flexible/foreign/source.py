@@ -29,7 +29,7 @@ from nivel.flexible.foreign.shells import Expansion, expansion
 from nivel.flexible.foreign.stress import with_elements
 from nivel.flexible.model.model import Array, FiniteElementModel, Sparse, Whole, from_matrix
 from nivel.flexible.model.model_file import Located
-from nivel.flexible.model.records import LENGTHS, MASSES, Matrices
+from nivel.flexible.model.records import LENGTHS, MASSES
 from nivel.flexible.model.selection import NodeSets
 from nivel.lazy import dataclass
 
@@ -115,144 +115,229 @@ HELD = 1e30  # a diagonal element from which on a row is one of a support (Abaqu
 STIFFNESS_NAMES, MASS_NAMES = ("KAAX", "KAA", "KGG", "KXX"), ("MAAX", "MAA", "MGG", "MXX")
 
 
-@dataclass(frozen=True)
-class _Read:
-    stiffness: FileMatrix
-    mass: FileMatrix
-    labels: tuple[Label, ...]
-
-
 def matrix_model(located: Located) -> tuple[FiniteElementModel, NodeSets]:
     """The model of the `matrices` of a model file in SI units, and its node sets.
 
     Raises ModelError.
     """
-    given = located.record.matrices
-    assert given is not None
-    mesh = _opened(located, "nodes", given.nodes, read_mesh)
-    shells: Expansion | None = None
-    if given.format == "calculix" and mesh.shells:
-        _in_nodes(located, given, lambda: calculix.refuse_expanded(mesh))
-        shells = _in_nodes(located, given, lambda: expansion(mesh))
-    try:
-        read = _matrices(located, given, mesh, shells)
-    except ModelError:
-        if given.format == "calculix":  # nodes of the solids in place of beams stand there many times
-            _in_nodes(located, given, lambda: calculix.refuse_expanded(mesh))
-        raise
-    if given.format == "calculix":
-        read = _in_nodes(located, given, lambda: _of_calculix(read, mesh))
-    if shells is not None:
-        mesh = shells.mesh
-    _check_nodes(located, mesh, read, shells)
-    length, mass = LENGTHS[given.units.length], MASSES[given.units.mass]
-    return _model(located, given, mesh, read, shells, length, mass)
+    return _Reading(located).model()
 
 
-def _of_calculix(read: _Read, mesh: Mesh) -> _Read:
-    """With the rotations of rigid groups as directions of their reference nodes. Raises FormatError."""
-    if any(node > mesh.numbers[-1] for node, _ in read.labels):  # of the solids in place of shells
-        calculix.refuse_expanded(mesh)
-    labels = calculix.rigid_rows(read.labels, mesh)
-    stiffness, mass = (
-        FileMatrix(each.matrix, calculix.rigid_rows(each.labels or (), mesh)) for each in (read.stiffness, read.mass)
-    )
-    return _Read(stiffness, mass, labels)
+class _Reading:
+    """Matrices of a model file, their mesh, its shells as solids, and the node and direction of each row (`labels`). Raises ModelError."""
 
+    def __init__(self, located: Located) -> None:
+        given = located.record.matrices
+        assert given is not None
+        self.located, self.given = located, given
+        self.length, self.mass_unit = LENGTHS[given.units.length], MASSES[given.units.mass]
+        self.mesh: Mesh = self._opened("nodes", given.nodes, read_mesh)
+        self.shells: Expansion | None = None
+        if given.format == "calculix" and self.mesh.shells:
+            self._in_nodes(lambda: calculix.refuse_expanded(self.mesh))
+            self.shells = self._in_nodes(lambda: expansion(self.mesh))
+        try:
+            self._read()
+        except ModelError:
+            if given.format == "calculix":  # nodes of the solids in place of beams stand there many times
+                self._in_nodes(lambda: calculix.refuse_expanded(self.mesh))
+            raise
+        if given.format == "calculix":
+            self._in_nodes(self._bind)
+        if self.shells is not None:
+            self.mesh = self.shells.mesh
 
-def _in_nodes(located: Located, given: Matrices, do: Callable[[], Any]) -> Any:
-    """What `do` returns; its FormatError as a ModelError with the line of the mesh."""
-    try:
-        return do()
-    except FormatError as error:
-        raise _fault(error, located.beside(given.nodes), "nodes") from None
+    def _bind(self) -> None:
+        """Rotations of rigid groups become directions of their reference nodes. Raises FormatError."""
+        if any(node > self.mesh.numbers[-1] for node, _ in self.labels):  # of the solids in place of shells
+            calculix.refuse_expanded(self.mesh)
+        self.labels = calculix.rigid_rows(self.labels, self.mesh)
+        self.stiffness, self.mass = (
+            FileMatrix(each.matrix, calculix.rigid_rows(each.labels or (), self.mesh))
+            for each in (self.stiffness, self.mass)
+        )
 
+    def _in_nodes(self, do: Callable[[], Any]) -> Any:
+        """What `do` returns; its FormatError as a ModelError with the line of the mesh."""
+        try:
+            return do()
+        except FormatError as error:
+            raise _fault(error, self.located.beside(self.given.nodes), "nodes") from None
 
-def _opened(located: Located, key: str, name: str, reader: Callable[[Path], Any]) -> Any:
-    """What `reader` makes of the file under `key`. Raises ModelError."""
-    path = located.beside(name)
-    place = ("matrices", key)
-    if not path.is_file():
-        raise ModelError(located.fault(place, f"there is no file `{path}`"))
-    try:
-        return reader(path)
-    except FormatError as error:
-        raise _fault(error, path, key) from None
-    except OSError as error:
-        raise ModelError(located.fault(place, f"`{path}` cannot be read: {error.strerror}")) from None
+    def _opened(self, key: str, name: str, reader: Callable[[Path], Any]) -> Any:
+        """What `reader` makes of the file under `key`."""
+        path = self.located.beside(name)
+        if not path.is_file():
+            raise self._refusal(f"there is no file `{path}`", key)
+        try:
+            return reader(path)
+        except FormatError as error:
+            raise _fault(error, path, key) from None
+        except OSError as error:
+            raise self._refusal(f"`{path}` cannot be read: {error.strerror}", key) from None
+
+    def _refusal(self, message: str, *keys: str) -> ModelError:
+        return ModelError(self.located.fault(("matrices", *keys), message, at_key=not keys))
+
+    def _read(self) -> None:
+        """The matrices, and the labels of their rows."""
+        given, freedoms = self.given, None
+        if given.freedoms is not None:
+            freedoms = self._opened(
+                "freedoms", given.freedoms, partial(read_freedoms, repeated=self.shells is not None)
+            )
+            if self.shells is not None:
+                freedoms = self._in_nodes(partial(self.shells.labels, freedoms))
+        match given.format:
+            case "nastran" | "op4":
+                reader = read_dmig if given.format == "nastran" else read_op4
+                self.stiffness, self.mass = self._named("stiffness", reader), self._named("mass", reader)
+            case _:
+                readers = {"abaqus": read_abaqus, "matrix-market": read_matrix_market}
+                reader = readers.get(given.format, partial(read_calculix, freedoms=freedoms or ()))
+                if given.format == "calculix" and freedoms is None:
+                    raise self._refusal("CalculiX matrices need their `freedoms`, the .dof file")
+                self.stiffness = self._opened("stiffness", given.stiffness, reader)
+                if given.mass is None:
+                    raise self._refusal("`mass` is missing: the file of the mass matrix")
+                self.mass = self._opened("mass", given.mass, reader)
+        if self.stiffness.labels is not None:
+            self.labels = tuple(sorted({*self.stiffness.labels, *(self.mass.labels or ())}))
+            return
+        self.labels = freedoms or self._by_counting(self.stiffness.matrix.shape[0])
+        for key, each in (("stiffness", self.stiffness), ("mass", self.mass)):
+            if each.matrix.shape[0] != len(self.labels):
+                message = f"the matrix has {each.matrix.shape[0]} rows, and `freedoms` names {len(self.labels)}"
+                raise self._refusal(message, key)
+        self.stiffness, self.mass = (FileMatrix(each.matrix, self.labels) for each in (self.stiffness, self.mass))
+
+    def _named(self, key: str, reader: Callable[[Path], dict[str, FileMatrix]]) -> FileMatrix:
+        """A matrix of a file that may have several: the one that is named, or one with a usual name."""
+        given = self.given
+        own_file = given.mass if key == "mass" else None
+        found = self._opened("stiffness" if own_file is None else "mass", own_file or given.stiffness, reader)
+        wanted = given.stiffness_name if key == "stiffness" else given.mass_name
+        if wanted is not None:
+            if wanted.upper() not in found:
+                message = (
+                    f"there is no matrix `{wanted}`; there {'is' if len(found) == 1 else 'are'} {', '.join(found)}"
+                )
+                raise self._refusal(message, f"{key}_name")
+            return found[wanted.upper()]
+        usual = [name for name in (STIFFNESS_NAMES if key == "stiffness" else MASS_NAMES) if name in found]
+        if usual or (len(found) == 1 and given.mass is not None):
+            return found[usual[0] if usual else next(iter(found))]
+        raise self._refusal(f"which of the matrices {', '.join(found)} is the {key}? Give `{key}_name`")
+
+    def _by_counting(self, rows: int) -> tuple[Label, ...]:
+        """Freedoms node by node in ascending order of their numbers, three or six each."""
+        numbers = self.mesh.numbers
+        nodes = len(numbers)
+        if rows not in (3 * nodes, 6 * nodes):
+            message = f"the matrix has {rows} rows; {nodes} nodes have {3 * nodes} degrees of freedom, or {6 * nodes} with rotations"
+            raise self._refusal(f"{message}{_hole(numbers)}; give a table of `freedoms`")
+        return tuple((int(node), axis) for node in numbers for axis in range(1, rows // nodes + 1))
+
+    def _check_nodes(self) -> None:
+        """Refuse rows and elements of nodes that do not exist, and directions that are none."""
+        numbers, faults = self.mesh.numbers, []
+        known, place = set(numbers.tolist()), ("matrices", "nodes")
+        missing = sorted({node for node, _ in self.labels} - known - self.inside)
+        if missing:
+            names = ", ".join(map(str, missing[:8])) + (" …" if len(missing) > 8 else "")
+            message = f"the matrices have rows of nodes that are not among the {len(known)} nodes here: {names}{_hole(numbers)}"
+            faults.append(self.located.fault(place, f"{message}; take the mesh that the matrices were made with"))
+        unknown = sorted({node for kind in self.mesh.elements.values() for element in kind for node in element} - known)
+        if unknown:
+            message = (
+                f"elements of the mesh have nodes that do not exist: {', '.join(map(str, unknown[:8]))}{_hole(numbers)}"
+            )
+            faults.append(self.located.fault(place, f"{message}; write the mesh again, with all its nodes"))
+        refuse(faults)
+
+    @property
+    def inside(self) -> set[int]:
+        """Numbers of rows without a node: incompatible modes, and stretches of knots of shells."""
+        stretches = set() if self.shells is None else {knot.stretch for knot in self.shells.knots.values()}
+        return calculix.internal_nodes(self.labels, self.mesh) | stretches
+
+    def model(self) -> tuple[FiniteElementModel, NodeSets]:
+        """The model, and its node sets."""
+        self._check_nodes()
+        mesh, labels, length, inside = self.mesh, self.labels, self.length, self.inside
+        used = sorted({node for node, _ in labels} - inside)
+        place = {node: k for k, node in enumerate(used)}
+        freedoms = np.full((len(used), 6), -1, dtype=np.int64)
+        for row, (node, axis) in enumerate(labels):
+            if node not in inside:
+                freedoms[place[node], axis - 1] = row
+        position = mesh.places[np.searchsorted(mesh.numbers, used)] * length
+        scale = sp.diags_array(np.where(np.array([axis for _, axis in labels]) > 3, length, 1.0))
+        # K in N/m for translations: mass/s²; a turn brings a length
+        K, M = (scale @ each.ordered(labels) @ scale * self.mass_unit for each in (self.stiffness, self.mass))
+        self._check_matrices(sp.csc_array(K), sp.csc_array(M))
+        mass = from_matrix(position, freedoms, sp.csc_array(M))
+        motion, stands_for = sp.csr_array(sp.eye_array(len(labels))), {}
+        if self.shells is not None:
+            following = followers(self.shells, labels, position, freedoms, place, length)
+            freedoms = np.concatenate([freedoms, following.freedoms])
+            position = np.concatenate([position, following.position])
+            motion = sp.csr_array(sp.vstack([motion, following.motion]))
+            place |= {node: len(used) + k for k, node in enumerate(following.numbers)}
+            used, stands_for = [*used, *following.numbers], following.stands_for
+        dropped = len(mesh.numbers) - len(used)
+        notes = (f"{dropped} nodes of the mesh have no rows in the matrices and were left out",) if dropped else ()
+        incompatible = len(calculix.internal_nodes(labels, mesh))
+        notes += (
+            (f"{incompatible} incompatible modes of elements C3D8I are rows without a node",) if incompatible else ()
+        )
+        notes += mesh.notes if self.shells is None else (*mesh.notes, *self.shells.notes)
+        sets = {
+            name: np.array(sorted({place[node] for node in members if node in place}), dtype=np.int64)
+            for name, members in mesh.sets.items()
+        }
+        model = FiniteElementModel(
+            name=self.located.record.name,
+            node_ids=np.array(used, dtype=np.int64),
+            position=position,
+            freedoms=freedoms,
+            stiffness=sp.csc_array(K),
+            mass=mass,
+            expansion=motion,
+            stands_for=stands_for,
+            notes=notes,
+        )
+        return self._in_nodes(lambda: self._with_solids(model, place)), sets
+
+    def _with_solids(self, model: FiniteElementModel, place: Mapping[int, int]) -> FiniteElementModel:
+        """The model with its solids: their stress, and pictures. Raises FormatError too."""
+        mesh, blocks = self.mesh, {}
+        if all(node in place for kind in mesh.elements.values() for element in kind for node in element):
+            blocks = calculix.blocks_of(mesh, place, model.position, calculix.incompatible_rows(self.labels, mesh))
+        if bad := calculix.first_inverted(blocks):
+            raise self._refusal(f"{bad}: their nodes are in another order, or a node was moved", "nodes")
+        pressure = self.mass_unit / self.length  # mass / (length s²)
+        return with_elements(model, mesh, blocks, place, pressure, self.length)
+
+    def _check_matrices(self, K: Sparse, M: Sparse) -> None:
+        faults = []
+        for key, matrix in (("stiffness", K), ("mass", M)):
+            problem = unsymmetric(matrix, key) if np.all(np.isfinite(matrix.data)) else ""
+            if not np.all(np.isfinite(matrix.data)):
+                problem = f"the {key} matrix has entries that are not finite numbers"
+            if problem:
+                faults.append(self.located.fault(("matrices", key), problem))
+        held = np.flatnonzero(np.abs(K.diagonal()) > HELD)
+        if len(held):
+            node, axis = self.labels[held[0]]
+            message = f"{len(held)} rows are held by boundary conditions (node {node}, direction {axis}, for one: "
+            message += f"{K.diagonal()[held[0]]:.3g}); remove all supports before the matrices are written"
+            faults.append(self.located.fault(("matrices", "stiffness"), message))
+        refuse(faults)
 
 
 def _fault(error: FormatError, path: Path, key: str) -> ModelError:
     return ModelError(Fault(str(error.file or path), int(error.line), 1, f"matrices.{key}", error.message))
-
-
-def _matrices(located: Located, given: Matrices, mesh: Mesh, shells: Expansion | None) -> _Read:
-    freedoms = None
-    if given.freedoms is not None:
-        reader = partial(read_freedoms, repeated=shells is not None)
-        freedoms = _opened(located, "freedoms", given.freedoms, reader)
-        if shells is not None:
-            freedoms = _in_nodes(located, given, partial(shells.labels, freedoms))
-    match given.format:
-        case "nastran" | "op4":
-            reader = read_dmig if given.format == "nastran" else read_op4
-            stiffness = _named(located, given, "stiffness", reader)
-            mass = _named(located, given, "mass", reader)
-        case "abaqus" | "matrix-market":
-            reader = read_abaqus if given.format == "abaqus" else read_matrix_market
-            stiffness = _opened(located, "stiffness", given.stiffness, reader)
-            mass = _opened(located, "mass", _mass_file(located, given), reader)
-        case "calculix":
-            if freedoms is None:
-                raise ModelError(
-                    located.fault(("matrices",), "CalculiX matrices need their `freedoms`, the .dof file", at_key=True)
-                )
-            stiffness = _opened(located, "stiffness", given.stiffness, lambda path: read_calculix(path, freedoms))
-            mass = _opened(located, "mass", _mass_file(located, given), lambda path: read_calculix(path, freedoms))
-    if stiffness.labels is not None:
-        labels = tuple(sorted({*stiffness.labels, *(mass.labels or ())}))
-        return _Read(stiffness, mass, labels)
-    labels = freedoms or _by_counting(located, stiffness.matrix.shape[0], mesh)
-    for key, each in (("stiffness", stiffness), ("mass", mass)):
-        if each.matrix.shape[0] != len(labels):
-            message = f"the matrix has {each.matrix.shape[0]} rows, and `freedoms` names {len(labels)}"
-            raise ModelError(located.fault(("matrices", key), message))
-    return _Read(FileMatrix(stiffness.matrix, labels), FileMatrix(mass.matrix, labels), labels)
-
-
-def _mass_file(located: Located, given: Matrices) -> str:
-    if given.mass is None:
-        raise ModelError(located.fault(("matrices",), "`mass` is missing: the file of the mass matrix", at_key=True))
-    return given.mass
-
-
-def _named(located: Located, given: Matrices, key: str, reader: Callable[[Path], dict[str, FileMatrix]]) -> FileMatrix:
-    """A matrix of a file that may have several: the one that is named, or one with a usual name."""
-    own_file = given.mass if key == "mass" else None
-    place = "mass" if own_file is not None else "stiffness"
-    found = _opened(located, place, own_file or given.stiffness, reader)
-    wanted = given.stiffness_name if key == "stiffness" else given.mass_name
-    if wanted is not None:
-        if wanted.upper() not in found:
-            message = f"there is no matrix `{wanted}`; there {'is' if len(found) == 1 else 'are'} {', '.join(found)}"
-            raise ModelError(located.fault(("matrices", f"{key}_name"), message))
-        return found[wanted.upper()]
-    usual = [name for name in (STIFFNESS_NAMES if key == "stiffness" else MASS_NAMES) if name in found]
-    if usual or (len(found) == 1 and given.mass is not None):
-        return found[usual[0] if usual else next(iter(found))]
-    message = f"which of the matrices {', '.join(found)} is the {key}? Give `{key}_name`"
-    raise ModelError(located.fault(("matrices",), message, at_key=True))
-
-
-def _by_counting(located: Located, rows: int, mesh: Mesh) -> tuple[Label, ...]:
-    """Freedoms node by node in ascending order of their numbers, three or six each."""
-    nodes = len(mesh.numbers)
-    if rows not in (3 * nodes, 6 * nodes):
-        message = f"the matrix has {rows} rows; {nodes} nodes have {3 * nodes} degrees of freedom, or {6 * nodes} with rotations"
-        raise ModelError(
-            located.fault(("matrices",), f"{message}{_hole(mesh.numbers)}; give a table of `freedoms`", at_key=True)
-        )
-    return tuple((int(node), axis) for node in mesh.numbers for axis in range(1, rows // nodes + 1))
 
 
 def _hole(numbers: Whole) -> str:
@@ -263,123 +348,3 @@ def _hole(numbers: Whole) -> str:
     before = int(numbers[gaps[0]])
     more = f" and {len(gaps) - 1} more" if len(gaps) > 1 else ""
     return f"; the numbers of the nodes have a hole after {before} (the next is {int(numbers[gaps[0] + 1])}){more}"
-
-
-def _check_nodes(located: Located, mesh: Mesh, read: _Read, shells: Expansion | None) -> None:
-    """Refuse rows and elements of nodes that do not exist, and directions that are none. Raises ModelError."""
-    known = set(mesh.numbers.tolist())
-    missing = sorted({node for node, _ in read.labels} - known - _inside(read, mesh, shells))
-    faults = []
-    if missing:
-        names = ", ".join(map(str, missing[:8])) + (" …" if len(missing) > 8 else "")
-        message = f"the matrices have rows of nodes that are not among the {len(known)} nodes here: {names}{_hole(mesh.numbers)}"
-        faults.append(
-            located.fault(("matrices", "nodes"), f"{message}; take the mesh that the matrices were made with")
-        )
-    unknown = sorted({node for kind in mesh.elements.values() for element in kind for node in element} - known)
-    if unknown:
-        names = ", ".join(map(str, unknown[:8]))
-        message = f"elements of the mesh have nodes that do not exist: {names}{_hole(mesh.numbers)}"
-        faults.append(located.fault(("matrices", "nodes"), f"{message}; write the mesh again, with all its nodes"))
-    refuse(faults)
-
-
-def _inside(read: _Read, mesh: Mesh, shells: Expansion | None) -> set[int]:
-    """Numbers of rows without a node: incompatible modes, and stretches of knots of shells."""
-    stretches = set() if shells is None else {knot.stretch for knot in shells.knots.values()}
-    return calculix.internal_nodes(read.labels, mesh) | stretches
-
-
-def _model(
-    located: Located,
-    given: Matrices,
-    mesh: Mesh,
-    read: _Read,
-    shells: Expansion | None,
-    length: float,
-    mass_unit: float,
-) -> tuple[FiniteElementModel, NodeSets]:
-    inside = _inside(read, mesh, shells)
-    used = sorted({node for node, _ in read.labels} - inside)
-    place = {node: k for k, node in enumerate(used)}
-    freedoms = np.full((len(used), 6), -1, dtype=np.int64)
-    for row, (node, axis) in enumerate(read.labels):
-        if node not in inside:
-            freedoms[place[node], axis - 1] = row
-    position = mesh.places[np.searchsorted(mesh.numbers, used)] * length
-    scale = sp.diags_array(np.where(np.array([axis for _, axis in read.labels]) > 3, length, 1.0))
-    # K in N/m for translations: mass/s²; a turn brings a length
-    K = scale @ read.stiffness.ordered(read.labels) @ scale * mass_unit
-    M = scale @ read.mass.ordered(read.labels) @ scale * mass_unit
-    _check_matrices(located, sp.csc_array(K), sp.csc_array(M), read.labels)
-    mass = from_matrix(position, freedoms, sp.csc_array(M))
-    motion, stands_for = sp.csr_array(sp.eye_array(len(read.labels))), {}
-    if shells is not None:
-        following = followers(shells, read.labels, position, freedoms, place, length)
-        freedoms = np.concatenate([freedoms, following.freedoms])
-        position = np.concatenate([position, following.position])
-        motion = sp.csr_array(sp.vstack([motion, following.motion]))
-        place |= {node: len(used) + k for k, node in enumerate(following.numbers)}
-        used, stands_for = [*used, *following.numbers], following.stands_for
-    dropped = len(mesh.numbers) - len(used)
-    notes = (f"{dropped} nodes of the mesh have no rows in the matrices and were left out",) if dropped else ()
-    incompatible = len(calculix.internal_nodes(read.labels, mesh))
-    notes += (f"{incompatible} incompatible modes of elements C3D8I are rows without a node",) if incompatible else ()
-    notes += mesh.notes if shells is None else (*mesh.notes, *shells.notes)
-    sets = {
-        name: np.array(sorted({place[node] for node in members if node in place}), dtype=np.int64)
-        for name, members in mesh.sets.items()
-    }
-    model = FiniteElementModel(
-        name=located.record.name,
-        node_ids=np.array(used, dtype=np.int64),
-        position=position,
-        freedoms=freedoms,
-        stiffness=sp.csc_array(K),
-        mass=mass,
-        expansion=motion,
-        stands_for=stands_for,
-        notes=notes,
-    )
-    return _in_nodes(located, given, lambda: _with_solids(located, model, mesh, read, place, length, mass_unit)), sets
-
-
-def _with_solids(
-    located: Located,
-    model: FiniteElementModel,
-    mesh: Mesh,
-    read: _Read,
-    place: Mapping[int, int],
-    length: float,
-    mass_unit: float,
-) -> FiniteElementModel:
-    """The model with its solids: their stress, and pictures. Raises FormatError and ModelError."""
-    if any(node not in place for kind in mesh.elements.values() for element in kind for node in element):
-        blocks = {}
-    else:
-        blocks = calculix.blocks_of(mesh, place, model.position, calculix.incompatible_rows(read.labels, mesh))
-    bad = calculix.first_inverted(blocks)
-    if bad:
-        raise ModelError(
-            located.fault(("matrices", "nodes"), f"{bad}: their nodes are in another order, or a node was moved")
-        )
-    return with_elements(model, mesh, blocks, place, mass_unit / length, length)  # a pressure is mass / (length s²)
-
-
-def _check_matrices(located: Located, K: Sparse, M: Sparse, labels: tuple[Label, ...]) -> None:
-    faults = []
-    for key, matrix in (("stiffness", K), ("mass", M)):
-        if not np.all(np.isfinite(matrix.data)):
-            faults.append(located.fault(("matrices", key), f"the {key} matrix has entries that are not finite numbers"))
-            continue
-        problem = unsymmetric(matrix, key)
-        if problem:
-            faults.append(located.fault(("matrices", key), problem))
-    held = np.flatnonzero(np.abs(K.diagonal()) > HELD)
-    if len(held):
-        node, axis = labels[held[0]]
-        message = f"{len(held)} rows are held by boundary conditions (node {node}, direction {axis}, for one: {K.diagonal()[held[0]]:.3g})"
-        faults.append(
-            located.fault(("matrices", "stiffness"), f"{message}; remove all supports before the matrices are written")
-        )
-    refuse(faults)

@@ -50,10 +50,9 @@ if TYPE_CHECKING:
     from nivel.machine.settings.sweep import SweepSettings
     from nivel.methods import StaticCoordinates
     from nivel.native.entry import Entry
-    from nivel.results.analyses.configuration_curve import ConfigurationCurve, JointPath
-    from nivel.results.analyses.efforts import Efforts
+    from nivel.results.analyses.efforts import Efforts, JointPath
     from nivel.results.analyses.linear_model import LinearModel
-    from nivel.results.analyses.mechanism import Range
+    from nivel.results.analyses.mechanism import ConfigurationCurve, Range
     from nivel.results.comparison import Comparison
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine

@@ -25,7 +25,7 @@ from nivel.lazy import dataclass, replace
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
 from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import unknown_name
-from nivel.results.analyses.configuration_curve import JointPath
+from nivel.results.analyses.efforts import JointPath
 from nivel.results.motion import rotation_matrices
 from nivel.system.system import Array
 

@@ -23,7 +23,7 @@ from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Curve
 from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.analyses.configuration_curve import ConfigurationCurve, Turning
+from nivel.results.analyses.mechanism import ConfigurationCurve, Turning
 from nivel.system.beam_nodes import with_nodes
 from nivel.system.system import Array
 

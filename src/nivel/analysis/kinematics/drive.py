@@ -24,8 +24,7 @@ from nivel.kernels.output.observe import observe
 from nivel.lazy import dataclass, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.analyses import KinematicsSettings
-from nivel.results.analyses.configuration_curve import ConfigurationCurve
-from nivel.results.analyses.mechanism import Range
+from nivel.results.analyses.mechanism import ConfigurationCurve, Range
 from nivel.results.motion import rotation_matrices
 from nivel.results.result import Result
 from nivel.system.beam_nodes import with_nodes

@@ -30,9 +30,8 @@ if TYPE_CHECKING:
     from nivel.elements.joints.drivers import Driver
     from nivel.judge.after.other_elements import Compared, Pair
     from nivel.machine.machine_record import MachineRecord
-    from nivel.results.analyses.configuration_curve import ConfigurationCurve, JointPath
-    from nivel.results.analyses.efforts import Efforts
-    from nivel.results.analyses.mechanism import Range
+    from nivel.results.analyses.efforts import Efforts, JointPath
+    from nivel.results.analyses.mechanism import ConfigurationCurve, Range
     from nivel.results.comparison import Reference, Row
     from nivel.results.estimate import Estimate
     from nivel.results.result import Result

@@ -14,6 +14,7 @@ import numpy as np
 from nivel.errors import Fault, ModelError, refuse
 from nivel.extras import needed
 from nivel.files.target import write_file
+from nivel.known import Result
 from nivel.lazy import xarray
 from nivel.results.frames.contents import name_in_file, name_of
 from nivel.results.frames.stored import DAMAGE
@@ -22,8 +23,6 @@ from nivel.words.wording import unknown_word
 
 if TYPE_CHECKING:
     import pandas
-
-    from nivel.results.result import Result
 
 
 class Column(NamedTuple):

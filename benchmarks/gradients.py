@@ -14,7 +14,7 @@ import numpy as np
 import nivel
 from nivel.analysis.gradients.gradient import Varied
 from nivel.analysis.gradients.outputs import parameters_of
-from nivel.analysis.gradients.slopes import WholeLoop, run_whole, seed, whole_entries
+from nivel.analysis.gradients.slopes import WholeLoop, run_whole, seed
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.dynamics import march, start_loop
@@ -64,7 +64,7 @@ def cost(path, parameters, settings, duration=DURATION, rounds=ROUNDS):
     plan = plan_run(machine.record)
     build(run_entries(plan), None)
     varied, chosen = Varied(machine, plan, ""), parameters_of(machine, parameters)
-    build(whole_entries(start_loop(varied.prepared, plan.settings)), None)
+    build(start_loop(varied.prepared, plan.settings).entries_on("whole"), None)
     plain, ratios, seeding = [], [], 0.0
     for _ in range(rounds):
         plain.append(march(varied.prepared, plan.settings, [Nobody()]).timing["loop_seconds"])

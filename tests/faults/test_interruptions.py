@@ -50,7 +50,7 @@ judge: false
 SEARCH = STUDY.replace(", count: 8", "").replace("save: [rail.displacement]\njudge: false\n", "")
 # command, and the function that does a unit of its work
 COMMANDS = {
-    "sweep": ("nivel.analysis.sweep.sweep", "run_variant"),
+    "sweep": ("nivel.analysis.sweep.variant", "run_variant"),
     "optimise": ("nivel.analysis.optimise.evaluations", "Evaluations._run"),
     "identify": ("nivel.analysis.optimise.evaluations", "Evaluations._run"),
     "compare": ("nivel.analysis.compare.compare", "_Bench.add"),

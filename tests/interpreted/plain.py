@@ -144,5 +144,7 @@ def install():
     lanes.is_whole = lambda address: False
     number.number_of = lambda address, x: x.real
     number.without_slopes = lambda x: x
+    number.where = lambda truth, x, y: x if truth else y
+    number.some, number.share_of_lanes = bool, lambda truth: 1.0
     block.Handle.__init__ = kept
     handle.reader = lambda *_: record_at

@@ -113,6 +113,13 @@ def test_a_batch_is_a_dataset_whatever_way_its_variants_are_made():
     assert rods.reason.values[2]
 
 
+def test_variants_that_are_all_the_same_are_patched_too():
+    machine = machine_of("mechanisms/slider-crank.yaml")
+    found = machine.batch({"bodies.crank.mass": [21.0] * 24}, save="hinge.angle")
+    assert found.attrs["patched"] == 1
+    assert np.ptp(found["hinge.angle"].values, axis=0).max() == 0.0
+
+
 def test_runs_that_end_early_are_not_a_number_after_it():
     text = """
 format: 1

@@ -63,7 +63,7 @@ def scale(x, z, factor, share):
 
 SHARE = Signature("number", ("vector",))
 call_share = caller(SHARE)
-share_of_duals = Entry(lambda x: x[0] / x[1], SHARE.on_duals, "toy_entries:share_of_duals")
+share_of_duals = Entry(lambda x: x[0] / x[1], SHARE.on("twin"), "toy_entries:share_of_duals")
 
 
 @entry(Signature("number", ("entry", "duals")))

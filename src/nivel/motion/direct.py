@@ -6,6 +6,7 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.core.lanes import is_whole, steepest
+from nivel.kernels.core.number import share_of_lanes, some
 from nivel.kernels.core.status import NOT_CLOSED, OK
 from nivel.kernels.record.hook import finish_forces
 from nivel.kernels.record.record import record_at
@@ -68,7 +69,7 @@ def open_level(machine, attempt):
     saddle, constraints, tolerance = record.saddle, record.constraints, record.control.stabilise
     if is_whole(machine) and attempt < MOST_CORRECTIONS and are_steep(saddle, constraints.C, constraints.scale):
         return POSITIONS
-    if exceeds(saddle, constraints.C, constraints.scale, tolerance[2]):
+    if some(exceeds(saddle, constraints.C, constraints.scale, tolerance[2])):
         if attempt < MAX_CORRECTIONS:
             return POSITIONS
         if are_open(machine, VISIBLE):
@@ -78,7 +79,7 @@ def open_level(machine, attempt):
                 return LOST
     if is_whole(machine) and are_steep(saddle, constraints.Cdot, constraints.scale):
         return VELOCITIES
-    return VELOCITIES if exceeds(saddle, constraints.Cdot, constraints.scale, tolerance[3]) else NOTHING
+    return VELOCITIES if some(exceeds(saddle, constraints.Cdot, constraints.scale, tolerance[3])) else NOTHING
 
 
 @stage
@@ -99,14 +100,17 @@ def is_near(machine):
     """Whether the factor of S for the state last read serves for the next pass."""
     record = record_at(machine)
     constraints = record.constraints
-    return not exceeds(record.saddle, constraints.C, constraints.scale, NEAR * record.control.stabilise[2])
+    return not some(exceeds(record.saddle, constraints.C, constraints.scale, NEAR * record.control.stabilise[2]))
 
 
 @stage
 def find_correction(machine, what, width):
-    """z, the whitened change that closes the level `what`, least in the mass metric."""
-    constraints = record_at(machine).constraints
-    correction(machine, constraints.C if what == POSITIONS else constraints.Cdot, width)
+    """z, the whitened change that closes the level `what`, least in the mass metric. Of several machines those are closed that need it."""
+    record = record_at(machine)
+    constraints, tolerance = record.constraints, record.control.stabilise[2 if what == POSITIONS else 3]
+    violation = constraints.C if what == POSITIONS else constraints.Cdot
+    share = share_of_lanes(exceeds(record.saddle, violation, constraints.scale, tolerance))
+    correction(machine, violation, share, width)
 
 
 @shared

@@ -36,7 +36,12 @@ class Entry:
     @cached_property
     def whole(self) -> Entry:
         """The same code for records of which all numbers are dual, for gradients of runs."""
-        return Entry(self.py_func, self.signature.wholly_on_duals, f"{self.name}.whole")
+        return Entry(self.py_func, self.signature.on("whole"), f"{self.name}.whole")
+
+    @cached_property
+    def packed(self) -> Entry:
+        """The same code for records of which all numbers are packs, for several machines at once."""
+        return Entry(self.py_func, self.signature.on("packed"), f"{self.name}.packed")
 
     @cached_property
     def compiled(self) -> Any:

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property, update_wrapper
+from importlib import import_module
 from typing import Any
 
 from nivel.native.signature import Signature
@@ -78,6 +79,12 @@ class Intrinsic:
 
     def __call__(self, *arguments: Any) -> Any:
         raise TypeError("only compiled functions can call this")
+
+
+def written(name: str) -> Intrinsic:
+    """The intrinsic `module:name` of `nivel.native.with_numba`, which is imported where one is compiled."""
+    module, _, own = name.partition(":")
+    return Intrinsic(lambda: getattr(import_module(f"nivel.native.with_numba.{module}"), own))
 
 
 def caller(signature: Signature) -> Intrinsic:

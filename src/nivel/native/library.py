@@ -7,7 +7,7 @@ import atexit
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from functools import cache
-from typing import Any
+from typing import Any, Final
 
 from nivel.native import store, workers
 from nivel.native.entry import Entry
@@ -15,6 +15,9 @@ from nivel.native.processor import target
 from nivel.native.shipped import address_in_library, fits
 from nivel.native.signature import Signature
 from nivel.native.sources import fingerprint, keep
+
+# addresses of what machine code reads besides its arguments, by name
+VARIABLES: Final[dict[str, int]] = {}
 
 
 def address_of(entry: Entry) -> int:
@@ -129,9 +132,10 @@ def _link(symbol: str, code: bytes) -> int:
 
     linker = _linker()
     name = f"{symbol}-{len(_loaded)}"
-    library = (
-        binding.JITLibraryBuilder().add_object_img(code).add_current_process().export_symbol(symbol).link(linker, name)
-    )
+    builder = binding.JITLibraryBuilder().add_object_img(code).add_current_process().export_symbol(symbol)
+    for each, address in VARIABLES.items():
+        builder.import_symbol(each, address)
+    library = builder.link(linker, name)
     address = int(library[symbol])
     library.detach()  # it stays in memory as long as the process does
     return address

@@ -88,6 +88,13 @@ def processor_flags() -> frozenset[str]:
 
 
 @cache
+def lane_count() -> int:
+    """Numbers that one instruction computes with: doubles of a vector of this processor, or of the level asked for; 4 at least."""
+    best = asked_level() or next((name for name in LEVELS if runs_here(LEVELS[name])), "")
+    return 8 if best == "x86-64-v4" else 4
+
+
+@cache
 def _cpuinfo(key: str) -> str:
     """The first line of /proc/cpuinfo that begins with `key`."""
     try:

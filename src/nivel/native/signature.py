@@ -4,12 +4,15 @@ machine   the address of a record              uint64_t
 twin      the same, its work dual numbers      uint64_t
 whole     the same, all its numbers dual       uint64_t
 entry     the address of another entry         uint64_t
+packed    the same, all its numbers packs      uint64_t
 number    a real number                        double
 dual      a dual number, see `nivel.native.duals`   double *
+pack      a pack, see `nivel.native.packs`     double *
 complex   a complex number                     double, double
 count     an integer                           int64_t
 vector    a row of real numbers                double *, int64_t
 duals     a row of dual numbers                double *, int64_t
+packs     a row of packs                       double *, int64_t
 status    of `nivel.kernels.core.status`            int64_t
 nothing   0, for Python nothing                int64_t
 """
@@ -17,7 +20,6 @@ nothing   0, for Python nothing                int64_t
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Mapping
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -28,18 +30,24 @@ IN_C: dict[str, tuple[Any, ...]] = {
     "machine": (ctypes.c_uint64,),
     "twin": (ctypes.c_uint64,),
     "whole": (ctypes.c_uint64,),
+    "packed": (ctypes.c_uint64,),
     "entry": (ctypes.c_uint64,),
     "number": (ctypes.c_double,),
     "dual": (ctypes.c_void_p,),
+    "pack": (ctypes.c_void_p,),
     "complex": (ctypes.c_double, ctypes.c_double),
     "count": (ctypes.c_int64,),
     "vector": (ctypes.c_void_p, ctypes.c_int64),
     "duals": (ctypes.c_void_p, ctypes.c_int64),
+    "packs": (ctypes.c_void_p, ctypes.c_int64),
 }
 ROWS: Final = {"vector": np.dtype(np.float64), "duals": DUAL}
-# what stands for real numbers where the same code runs on dual ones
-ON_DUALS: Final = {"machine": "twin", "number": "dual", "vector": "duals"}
-WHOLLY_ON_DUALS: Final = {**ON_DUALS, "machine": "whole"}
+# what stands for the address of a record, a real number and a row of these where the same code runs on other numbers
+ON: Final = {
+    "twin": {"machine": "twin", "number": "dual", "vector": "duals"},
+    "whole": {"machine": "whole", "number": "dual", "vector": "duals"},
+    "packed": {"machine": "packed", "number": "pack", "vector": "packs"},
+}
 RESULT_IN_C: dict[str, Any] = {"status": ctypes.c_int64, "number": ctypes.c_double, "nothing": ctypes.c_int64}
 # status of an entry in which something was raised, which kernels must not do; a number is then none
 BROKEN = -1
@@ -54,18 +62,9 @@ class Signature(NamedTuple):
     def __str__(self) -> str:
         return f"{self.result}({', '.join(self.arguments)})"
 
-    @property
-    def on_duals(self) -> Signature:
-        """That of the same code on dual numbers."""
-        return self._with(ON_DUALS)
-
-    @property
-    def wholly_on_duals(self) -> Signature:
-        """The same for records of which all numbers are dual."""
-        return self._with(WHOLLY_ON_DUALS)
-
-    def _with(self, kinds: Mapping[str, str]) -> Signature:
-        result, *arguments = (kinds.get(kind, kind) for kind in (self.result, *self.arguments))
+    def on(self, numbers: str) -> Signature:
+        """That of the same code on other numbers, for records that are a `twin`, `whole` or `packed`."""
+        result, *arguments = (ON[numbers].get(kind, kind) for kind in (self.result, *self.arguments))
         return Signature(result, tuple(arguments))
 
     def function_at(self, address: int) -> Any:

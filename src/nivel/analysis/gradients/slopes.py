@@ -25,60 +25,33 @@ from nivel.analysis.preparation.parameters import Sample, Unfit, UnfitError, num
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.progress.pacing import interruptible
-from nivel.analysis.run.dynamics import GOES_ON, Loop, start_loop
+from nivel.analysis.run.dynamics import GOES_ON, Loop, LoopOnNumbers, start_loop
 from nivel.errors import Fault, ModelError, NivelError, SolveError, refuse
-from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import BUDGET, EVENTS, FRAMES, OPEN_LIMIT, TIME
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.core.arrays import whole_twin
-from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import BUDGET_SPENT, DONE
-from nivel.kernels.record.hook import FAMILIES
 from nivel.kernels.record.record import Record
 from nivel.native.duals import DUAL, LANES
-from nivel.native.entry import Entry
 from nivel.results.curve import DOUBT, curve, curve_of
 from nivel.results.frames.contents import MemoryContents
 from nivel.results.result import Result
 from nivel.system.laws.laws import dual_address
 
 
-def whole_entries(loop: Loop) -> list[Entry]:
-    """The machine code that the loop needs on dual numbers, but for laws and expressions."""
-    record: Record = loop.machine.record
-    used = [*record.hooks.address, *record.elements.address]
-    families = [FAMILIES[int(address)].whole for address in dict.fromkeys(used) if address]
-    return [loop.evaluate.whole, loop.correct.whole, loop.step.whole, advance.whole, *families]
-
-
-class WholeLoop:
-    """The loop of a run on dual numbers. machine, run : its records, without slopes yet."""
+class WholeLoop(LoopOnNumbers):
+    """The loop of a run on dual numbers, without slopes yet."""
 
     def __init__(self, loop: Loop) -> None:
         machine: Record = loop.machine.record
         twin = whole_twin(machine)
-        laws = [dual_address(int(each)) if each else 0 for each in machine.functions.address]
-        self.machine: Record = twin._replace(
-            hooks=twin.hooks._replace(address=_wholly(machine.hooks.address)),
-            elements=twin.elements._replace(address=_wholly(machine.elements.address)),
-            functions=twin.functions._replace(address=np.array(laws, dtype=np.uint64)),
-            # what the twin by which Newton's matrix is found shares: elements that hold sliders, whether contacts keep their side
+        # what the twin by which Newton's matrix is found shares: elements that hold sliders, whether contacts keep their side
+        twin = twin._replace(
             tree=twin.tree._replace(element=machine.tree.element),
             watched=twin.watched._replace(followed=machine.watched.followed),
         )
-        self.run: Any = whole_twin(loop.history.record)
-        self._handles = Handle(self.machine), Handle(self.run)
-        codes = loop.evaluate.whole, loop.correct.whole, loop.step.whole
-        self._addresses = *(code.address for code in codes), *(int(each.address) for each in self._handles)
-
-    def advance(self) -> int:
-        """Go on for the budget of steps in the counter of the run. Returns a status."""
-        return advance.whole(*self._addresses)
-
-
-def _wholly(addresses: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    """Addresses of the same families for records of which all numbers are dual."""
-    return np.array([FAMILIES[int(each)].whole.address if each else 0 for each in addresses], dtype=np.uint64)
+        laws = [dual_address(int(each)) if each else 0 for each in machine.functions.address]
+        super().__init__(loop, "whole", twin, whole_twin(loop.history.record), laws)
 
 
 # parameters of the machines beside are away from their own values by these shares of their scales, and twice as far: wide, narrow
@@ -257,7 +230,7 @@ def find_slopes(
 
     Raises ModelError where a parameter has no gradient, SolveError where the run fails.
     """
-    build(whole_entries(start_loop(prepared, settings, at_switches=True)), listener)
+    build(start_loop(prepared, settings, at_switches=True).entries_on("whole"), listener)
     passes: list[Lanes] = []
     finer_passes: list[Lanes] = []
     for first in range(0, len(parameters), LANES):

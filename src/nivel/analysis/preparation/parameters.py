@@ -211,7 +211,7 @@ def _noise(nominal: MachineMemory, sample: Sample, share: float = EQUAL) -> NDAr
 
 
 def _fitted(nominal: MachineMemory, x: Array, samples: Sequence[Sample], *, laws: bool) -> Numbers:
-    changed = np.array([_changed(sample) for sample in samples])
+    changed = np.array([_changed(sample) for sample in samples], dtype=bool).reshape(len(samples), len(nominal.numbers))
     if laws:
         changed &= ~nominal.left
     places = np.flatnonzero(changed.any(axis=0))

@@ -8,9 +8,10 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from importlib import import_module
 from re import sub
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.penalties import feedback, of_rows
@@ -35,6 +36,7 @@ from nivel.judge.during.lockup import Jam, branching_advice, branching_joints, c
 from nivel.judge.during.stop import NO_NUMBER
 from nivel.kernels.core.block import Handle
 from nivel.kernels.output.observe import observe
+from nivel.kernels.record.hook import FAMILIES
 from nivel.lazy import dataclass, field, nivel, replace
 from nivel.native.entry import Entry
 from nivel.results.frames.summary import Occurrence
@@ -107,6 +109,37 @@ class Loop(NamedTuple):
     def advance(self) -> int:
         """Go on for the budget of steps in the history's counter. Returns a status."""
         return advance(*self.addresses)
+
+    def entries_on(self, numbers: str) -> list[Entry]:
+        """The machine code that it needs on other numbers, `whole` or `packed`, but for laws and expressions."""
+        record = self.machine.record
+        used = dict.fromkeys((*record.hooks.address, *record.elements.address))
+        families = [FAMILIES[int(address)] for address in used if address]
+        return [getattr(each, numbers) for each in (self.evaluate, self.correct, self.step, advance, *families)]
+
+
+class LoopOnNumbers:
+    """A loop on other numbers, `whole` or `packed`. machine, run : its records on these. laws : addresses of its functions."""
+
+    def __init__(self, loop: Loop, numbers: str, machine: Any, run: Run, laws: Sequence[int]) -> None:
+        def families(addresses: NDArray[np.uint64]) -> NDArray[np.uint64]:
+            found = [getattr(FAMILIES[int(each)], numbers).address if each else 0 for each in addresses]
+            return np.array(found, dtype=np.uint64)
+
+        used = loop.machine.record
+        self.machine = machine._replace(
+            hooks=machine.hooks._replace(address=families(used.hooks.address)),
+            elements=machine.elements._replace(address=families(used.elements.address)),
+            functions=machine.functions._replace(address=np.array(laws, dtype=np.uint64)),
+        )
+        self.run, self._advance = run, getattr(advance, numbers)
+        self._handles = Handle(self.machine), Handle(self.run)
+        codes = (getattr(each, numbers).address for each in (loop.evaluate, loop.correct, loop.step))
+        self._addresses = *codes, *(int(each.address) for each in self._handles)
+
+    def advance(self) -> int:
+        """Go on for the budget of steps in the counter of the run. Returns a status."""
+        return self._advance(*self._addresses)
 
 
 def march(

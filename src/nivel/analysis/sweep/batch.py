@@ -19,6 +19,7 @@ from nivel.analysis.sweep.variants import ROW, Variants
 from nivel.errors import ModelError
 from nivel.lazy import nivel
 from nivel.model import Model
+from nivel.native.processor import lane_count
 from nivel.results.result import Result
 
 FACTS: Final = {
@@ -44,8 +45,10 @@ def run_batch(
     for name in names:
         first.selection(name)
     patches, why = formulas_for(base, rows) if len(rows) >= WORTH_FORMULAS else (None, "there are few variants")
+    runs = VariantRuns(base, patches)
+    runs.look_for_lanes(len(rows) * float(first.timing.get("loop_seconds", 0.0)), listener)
     threads = threads or nivel.native.workers.processors()
-    left, kept = deque(range(len(rows))), [VariantRun(NOT_RUN)] * len(rows)
+    left, kept = deque(range(0, len(rows), lane_count())), [VariantRun(NOT_RUN)] * len(rows)
     done = [0]
 
     with interruptible() as interrupted:
@@ -54,13 +57,14 @@ def run_batch(
             runs = VariantRuns(base, patches)
             while left and not interrupted():
                 try:
-                    number = left.popleft()
+                    first = left.popleft()
                 except IndexError:
                     return
-                kept[number] = kept_of(runs.run(rows[number]), names)
-                done[0] += 1
-                if listener.progress is not None:
-                    listener.progress(float(done[0]))
+                for number, ran in enumerate(runs.run_all(rows[first : first + lane_count()]), first):
+                    kept[number] = kept_of(ran, names)
+                    done[0] += 1
+                    if listener.progress is not None:
+                        listener.progress(float(done[0]))
 
         if threads == 1 or patches is None:
             work(0)
@@ -80,6 +84,8 @@ def run_batch(
         "seconds": perf_counter() - begin,
         "loop_seconds": sum(each.loop_seconds for each in kept),
         "patched": int(patches is not None),
+        "in_lanes": sum(each.in_lanes for each in kept) / len(kept),
+        "not_in_lanes": runs.not_in_lanes,
         "prepared_because": why,
     }
     return collected(variants, kept, {}, attributes, FACTS)

@@ -7,6 +7,7 @@ changes its structure, or depends on two parameters together is left to those wh
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from time import thread_time
 from typing import Any, Final, NamedTuple
 
@@ -284,8 +285,11 @@ class PatchedRuns:
             raise UnsuitedError("its memory is laid out otherwise")
         self._advance = BoundEntry(advance, self.blank.loop.addresses, keep=self.blank.loop)
         self._header = header_of(found.blank.plan, self.blank.prepared, "")
+        # names of columns are made once
+        self._contents = MemoryContents(self._header, self.blank.run.frames[:0], dict(self._header.attributes))
         self.loop_seconds = 0.0
-        self._shares = are_open(self.blank.prepared)
+        prepared = self.blank.prepared
+        self.shares = are_open(prepared) and bool(prepared.redundancy.redundant_rows)
 
     def run(self, x: Array, limit: float | None = None) -> Array | None:
         """Frames (n, width) of the variant with parameters x, valid until the next run; None where it did not come to its end as it
@@ -295,10 +299,15 @@ class PatchedRuns:
         self.begin(x)
         run = self.blank.run
         frames = self._looked_at(x, limit) if len(run.ends) else self._advanced(run, limit)
-        loads = SharedLoads.of(self.blank.prepared, keeps_sparse=False) if self._shares and frames is not None else None
-        if loads is not None and frames is not None:
-            loads.share(frames)
+        if frames is not None:
+            self.share(frames)
         return frames
+
+    def share(self, frames: Array) -> None:
+        """Let redundant joints share their loads in frames of the variant whose memory this is."""
+        loads = SharedLoads.of(self.blank.prepared, keeps_sparse=False) if self.shares else None
+        if loads is not None:
+            loads.share(frames)
 
     def begin(self, x: Array) -> None:
         """Put the memory of a variant at its start, as its first evaluation leaves it."""
@@ -349,7 +358,9 @@ class PatchedRuns:
 
     def result(self, frames: Array) -> Result:
         """Frames with their names. Facts beside the frames are those of the nominal machine."""
-        return Result(MemoryContents(self._header, frames, dict(self._header.attributes)))
+        contents = copy(self._contents)
+        contents.frames, contents.frame_count = frames, len(frames)
+        return Result(contents)
 
 
 # what a variant has of its own: the memory, and the machine as it is written

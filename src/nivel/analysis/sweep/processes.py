@@ -6,7 +6,7 @@ import os
 import pickle
 import threading
 from collections import deque
-from collections.abc import Generator, Iterable, Mapping
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from queue import SimpleQueue
 from threading import Lock
@@ -14,7 +14,7 @@ from time import monotonic
 from typing import TYPE_CHECKING, Any, Final
 
 from nivel.analysis.sweep.outputs import Task
-from nivel.analysis.sweep.variant import KILLED, VariantRun, run_variant
+from nivel.analysis.sweep.variant import KILLED, VariantRun, at_once, run_variants
 from nivel.analysis.sweep.variant_runs import TIMED_OUT
 from nivel.errors import ModelError
 from nivel.extras import needed
@@ -30,26 +30,26 @@ ONE_THREAD: Final = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS
 
 # number of the variant, its task, its values by path
 Job = tuple[int, Task, Mapping[str, Any]]
+Group = Sequence[Job]
 
 
 def run_in_processes(
-    jobs: Iterable[Job], count: int, *, here: bool = True
+    groups: Iterable[Group], count: int, *, here: bool = True
 ) -> Generator[tuple[int, VariantRun], None, None]:
     """Number and run of each variant, as they are finished, by `count` processes. here : this one is one of them, which goes on while the
     others start; without it no variant can end this process. Workers are ended where the caller stops.
 
     Raises what a worker could not do for a fault of nivel.
     """
-    left, finished = deque(jobs), SimpleQueue[tuple[int, Any] | None]()
+    left, finished = deque(groups), SimpleQueue[tuple[int, Any] | None]()
     workers = [Worker() for _ in range(min(count - here, len(left)))]
     for worker in workers:
         threading.Thread(target=_serve, args=(worker, left, finished), daemon=True).start()
     working = len(workers)
     try:
         while working or (here and left):
-            if here and finished.empty() and (job := _next(left)) is not None:
-                number, task, values = job
-                yield number, run_variant(task, values)
+            if here and finished.empty() and (group := _next(left)) is not None:
+                yield from run_group(group)
                 continue
             match finished.get():
                 case None:
@@ -64,18 +64,31 @@ def run_in_processes(
             worker.end()
 
 
-def _next(left: deque[Job]) -> Job | None:
+def _next(left: deque[Group]) -> Group | None:
     try:
         return left.popleft()
     except IndexError:
         return None
 
 
-def _serve(worker: Worker, left: deque[Job], finished: SimpleQueue[Any]) -> None:
+def grouped(jobs: Sequence[Job]) -> list[Group]:
+    """Jobs that are computed together; the first one apart, so that a name in `save` that is none is told at once."""
+    size = at_once(jobs[0][1]) if jobs else 1
+    return [jobs[k : k + size] if k else jobs[:1] for k in (*range(min(1, len(jobs))), *range(1, len(jobs), size))]
+
+
+def run_group(group: Group) -> Iterator[tuple[int, VariantRun]]:
+    """Number and run of jobs of one task, computed here."""
+    runs = run_variants(group[0][1], [values for _, _, values in group])
+    return zip((number for number, _, _ in group), runs, strict=True)
+
+
+def _serve(worker: Worker, left: deque[Group], finished: SimpleQueue[Any]) -> None:
     try:
-        while (job := _next(left)) is not None:
-            number, task, values = job
-            finished.put((number, worker.run(task, values)))
+        while (group := _next(left)) is not None:
+            runs = worker.run(group[0][1], [values for _, _, values in group])
+            for (number, _, _), run in zip(group, runs, strict=True):
+                finished.put((number, run))
     except BaseException as problem:  # whatever it is, nobody may wait for it
         finished.put((-1, problem))
     finished.put(None)
@@ -95,20 +108,22 @@ class Worker:
         self._task: Task | None = None
         self._lives = True
 
-    def run(self, task: Task, values: Mapping[str, Any]) -> VariantRun:
-        """The variant, computed by the process; one that was killed or timed out where the process ends on the way."""
+    def run(self, task: Task, rows: Sequence[Mapping[str, Any]]) -> list[VariantRun]:
+        """Variants, computed by the process; one that was killed or timed out where the process ends on the way."""
         if not self._lives and not self._ended:
             self._start()
         sent, self._task = (None if task is self._task else task), task
         begin = monotonic()
         try:
-            return self._process.ask((sent, values))
+            return self._process.ask((sent, rows))
         except EndedError as ended:
             status, self._lives = ended.status, False
+        if len(rows) > 1:  # which of them it was, is found singly
+            return [run for values in rows for run in self.run(task, [values])]
         if task.time_limit is not None and monotonic() - begin >= task.time_limit:
-            return VariantRun(TIMED_OUT, f"it took longer than the time limit of {seconds(task.time_limit)}")
+            return [VariantRun(TIMED_OUT, f"it took longer than the time limit of {seconds(task.time_limit)}")]
         what = f"status {status}" if status >= 0 else f"the signal {signal_of(status).removeprefix('signal ')}"
-        return VariantRun(KILLED, f"the process that ran it ended with {what}")
+        return [VariantRun(KILLED, f"the process that ran it ended with {what}")]
 
     def end(self) -> None:
         """Stop it, whatever it does."""
@@ -223,7 +238,7 @@ def compute(content: bytes, values: Mapping[str, Any]) -> VariantRun:
         worker = _free.pop() if _free else Worker()
     assert task is not None
     try:
-        return worker.run(task, values)
+        return worker.run(task, [values])[0]
     finally:
         with _lock:
             _free.append(worker)

@@ -15,8 +15,17 @@ from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.log import Listener, Log, bar_of
 from nivel.analysis.progress.pacing import interruptible
 from nivel.analysis.sweep.outputs import Task
-from nivel.analysis.sweep.processes import Job, client_of, run_in_processes, run_on_cluster, threads_of
-from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, collected, row_of, run_of, run_variant
+from nivel.analysis.sweep.processes import (
+    Group,
+    Job,
+    client_of,
+    grouped,
+    run_group,
+    run_in_processes,
+    run_on_cluster,
+    threads_of,
+)
+from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, collected, look_for_lanes, row_of, run_of
 from nivel.analysis.sweep.variants import Variants
 from nivel.errors import ModelError
 from nivel.judge.after.report import assess
@@ -60,13 +69,15 @@ def sweep(
     for number, run in before.items():
         runs[number] = run
     jobs = [job for job in jobs if job[0] not in before]
-    begin, done, loop = perf_counter(), len(before), 0.0
+    begin, done, loop, why = perf_counter(), len(before), 0.0, "none was run"
     listener.say(f"running {len(values)} variants", float(len(values)))
 
     def keep(number: int, run: VariantRun) -> None:
-        nonlocal done, loop
+        nonlocal done, loop, why
         if run.outcome == NOT_RUN:
             return
+        if not loop and run.loop_seconds:
+            why = look_for_lanes(tasks[0], len(jobs) * run.loop_seconds, listener)
         runs[number], done = run, done + 1
         loop += run.loop_seconds
         if journal is not None:
@@ -85,6 +96,8 @@ def sweep(
         "seconds": perf_counter() - begin,
         "loop_seconds": loop,
         "processes": processes,
+        "in_lanes": sum(run.in_lanes for run in runs) / len(runs),
+        "not_in_lanes": why,
         "outcomes": ", ".join(f"{count} {outcome}" for outcome, count in Counter(run.outcome for run in runs).items()),
         **trust.attributes(),
     }
@@ -96,13 +109,13 @@ def _compute(jobs: Sequence[Job], engine: Engine, keep: Heard) -> int:
     with ExitStack() as stack:
         client = stack.enter_context(client_of(engine.scheduler)) if engine.scheduler else None
         interrupted = stack.enter_context(interruptible())
-        left = jobs
+        left: Sequence[Group] = grouped(jobs)
         if client is None and not engine.apart:
-            left = _run_here(jobs, keep, interrupted, engine.processes)
+            left = _run_here(left, keep, interrupted, engine.processes)
         if not left or interrupted():
             return 1
         found = (
-            run_on_cluster(left, client)
+            run_on_cluster([job for group in left for job in group], client)
             if client is not None
             else run_in_processes(left, engine.processes, here=not engine.apart)
         )
@@ -131,18 +144,18 @@ def _subject(
     return Sweep(outcome=outcome, variants=seen, by="checks of each", without="not all of them were checked")
 
 
-def _run_here(jobs: Sequence[Job], keep: Heard, interrupted: Callable[[], bool], processes: int) -> Sequence[Job]:
+def _run_here(groups: Sequence[Group], keep: Heard, interrupted: Callable[[], bool], processes: int) -> Sequence[Group]:
     """Run the first variants, all of them where they are quick. Returns those that are left for processes."""
-    for at, (number, task, values) in enumerate(jobs):
+    for at, group in enumerate(groups):
         begin = perf_counter()
-        run = run_variant(task, values)
-        if run.outcome == NOT_RUN:  # Ctrl-C came
-            return ()
-        keep(number, run)
-        rest = (len(jobs) - at - 1) * (perf_counter() - begin)
+        for number, run in run_group(group):
+            if run.outcome == NOT_RUN:  # Ctrl-C came
+                return ()
+            keep(number, run)
+        rest = (len(groups) - at - 1) * (perf_counter() - begin)
         # the first one loads what all need
         if interrupted() or (at and processes > 1 and rest > WORTH_A_PROCESS):
-            return jobs[at + 1 :]
+            return groups[at + 1 :]
     return ()
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields
 from typing import Any, Final
 
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.progress.journal import Row, fingerprint, packed, unpacked
+from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.simulate import simulate
 from nivel.analysis.sweep.outputs import Found, Number, OutputFailedError, Task, outputs_of, usual_names
 from nivel.analysis.sweep.variant_runs import JudgedRuns, Ran, VariantRuns, analysed, formulas_for, judged_runs
@@ -21,6 +22,7 @@ from nivel.errors import ModelError, NivelError, SolveError, retold
 from nivel.lazy import dataclass, field, replace
 from nivel.machine.study.parameter import Output
 from nivel.model import Model
+from nivel.native.processor import lane_count
 from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.result import Result
 
@@ -46,7 +48,8 @@ class VariantRun:
     timed out; killed, with the process that computed it.
 
     verdict : of the trust report, `not verified` in place of green where not all of it was verified. headline : how exact it is, in a
-    sentence. estimated_error [m] : of positions, not a number without a second run. loop_seconds : in the compiled loop. outputs : by name.
+    sentence. estimated_error [m] : of positions, not a number without a second run. loop_seconds : in the compiled loop.
+    in_lanes : together with others. outputs : by name.
     """
 
     outcome: str
@@ -57,6 +60,7 @@ class VariantRun:
     headline: str = ""
     estimated_error: float = np.nan
     loop_seconds: float = 0.0
+    in_lanes: bool = False
     time: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
     saved: Mapping[str, Saved] = field(default_factory=dict)
     outputs: Mapping[str, Number] = field(default_factory=dict)
@@ -68,7 +72,7 @@ def run_variant(task: Task, values: Mapping[str, Any]) -> VariantRun:
     Raises ModelError where the result has no name that is saved or that an output asks for.
     """
     if not task.judge:
-        return _unjudged(task, values)
+        return _kept_unjudged(task, _unjudged(task).run(values))
     reason, failed = "", False
     try:
         machine = task.machine.with_values(values) if values else task.machine
@@ -88,6 +92,29 @@ def run_variant(task: Task, values: Mapping[str, Any]) -> VariantRun:
     outcome = FAILED if failed else STOPPED if reason else DONE
     kept = _kept(found, outcome, reason, task)
     return kept if failed else _with_outputs(kept, found, task)
+
+
+def run_variants(task: Task, rows: Sequence[Mapping[str, Any]]) -> Iterator[VariantRun]:
+    """Variants one after the other, as of `run_variant`; no more of them than `at_once` are computed together."""
+    if task.judge or len(rows) == 1:
+        yield from (run_variant(task, values) for values in rows)
+        return
+    for ran in _unjudged(task).run_all(rows):
+        yield _kept_unjudged(task, ran)
+
+
+def at_once(task: Task) -> int:
+    """How many variants of a task are best given to `run_variants`."""
+    return 1 if task.judge or task.time_limit is not None or not task.sample else lane_count()
+
+
+def look_for_lanes(task: Task, seconds: float, listener: Listener) -> str:
+    """Why variants do not run in lanes, in words. seconds : what single runs of all of them take, by which machine code may be worth
+    compiling."""
+    if at_once(task) == 1:
+        return "each has a trust report" if task.judge else "they are few, or have a time limit"
+    _unjudged(task).look_for_lanes(seconds, listener)
+    return _unjudged(task).not_in_lanes
 
 
 def _with_outputs(kept: VariantRun, found: Found, task: Task) -> VariantRun:
@@ -127,11 +154,15 @@ class _Last:
         return cls
 
 
-def _unjudged(task: Task, values: Mapping[str, Any]) -> VariantRun:
-    """A run without a trust report. Raises ModelError as `run_variant`."""
+def _unjudged(task: Task) -> VariantRuns:
+    """Runs without trust reports."""
     runs = _Last.of(task).unjudged
     assert runs is not None
-    ran = runs.run(values)
+    return runs
+
+
+def _kept_unjudged(task: Task, ran: Ran) -> VariantRun:
+    """What is kept of a run without a trust report. Raises ModelError as `run_variant`."""
     if ran.result is None:
         return VariantRun(ran.outcome, ran.reason)
     kept = kept_of(ran, task.save or (() if task.outputs else usual_names(ran.result)))
@@ -146,7 +177,9 @@ def kept_of(ran: Ran, save: Sequence[str]) -> VariantRun:
     saved = {name: replace(each, values=each.values.copy()) for name in save for each in [_saved(ran.result, name)]}
     time = ran.result.time.copy() if saved else np.zeros(0)
     end = _end(ran.result)
-    return VariantRun(ran.outcome, ran.reason, end, loop_seconds=ran.loop_seconds, time=time, saved=saved)
+    return VariantRun(
+        ran.outcome, ran.reason, end, loop_seconds=ran.loop_seconds, in_lanes=ran.in_lanes, time=time, saved=saved
+    )
 
 
 def _computed(machine: Model, task: Task, values: Mapping[str, Any]) -> Found:

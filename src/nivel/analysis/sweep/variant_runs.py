@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from time import thread_time
 from typing import Any, Final
 
@@ -11,6 +11,7 @@ from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.attempt import header_of
 from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.simulate import close_run, simulate
+from nivel.analysis.sweep.lane_runs import LaneRuns
 from nivel.analysis.sweep.patched import PatchedRuns, Patches, TooLongError, UnsuitedError, learn, read_values, sampled
 from nivel.errors import ModelError, NivelError, SolveError, refuse
 from nivel.judge.after.subject import run_of
@@ -33,23 +34,47 @@ class Ran:
     """A variant, computed. outcome, reason : as of a `VariantRun`. loop_seconds : in the compiled loop.
 
     result : what was computed, of the kind that the analysis has, valid until the next of the same `VariantRuns`; None where nothing was.
+    in_lanes : together with others.
     """
 
     outcome: str
     reason: str = ""
     result: Any = None
     loop_seconds: float = 0.0
+    in_lanes: bool = False
 
 
 class VariantRuns:
-    """Runs variants of a machine one by one: patched where formulas are known, else each prepared. Every thread needs its own.
+    """Runs variants of a machine: patched where formulas are known, else each prepared. Every thread needs its own.
 
+    not_in_lanes : why they are run singly, in words.
     time_limit [s] : of the processor time of each; what takes longer is `timed out`.
     """
 
     def __init__(self, base: Model, patches: Patches | None = None, time_limit: float | None = None) -> None:
         self._base, self._limit = base, time_limit
         self._patched = None if patches is None else PatchedRuns(patches)
+        self._lanes: LaneRuns | None = None
+        self.not_in_lanes = "each is prepared" if patches is None else "there is a time limit"
+
+    def look_for_lanes(self, seconds: float, listener: Listener) -> None:
+        """Use lanes from now on, where they can be. seconds : what single runs of all variants take."""
+        if self._patched is None or self._limit is not None or self._lanes is not None:
+            return
+        try:
+            self._lanes, self.not_in_lanes = LaneRuns(self._patched, seconds, listener), ""
+        except UnsuitedError as problem:
+            self.not_in_lanes = str(problem)
+
+    def run_all(self, rows: Sequence[Values]) -> Iterator[Ran]:
+        """Variants with these values, no more than there are lanes, one after the other as of `run`."""
+        self.look_for_lanes(0.0, Listener())  # there may be machine code now
+        if self._lanes is None or not self._lanes.serves or len(rows) == 1:
+            yield from map(self.run, rows)
+            return
+        for row, result in zip(rows, self._lanes.run([read_values(row) for row in rows]), strict=True):
+            done = None if result is None else Ran("done", "", result, self._lanes.loop_seconds, in_lanes=True)
+            yield done or self.run(row)
 
     def run(self, values: Values) -> Ran:
         """The machine with these values, run by its own settings, without a second run and a trust report."""

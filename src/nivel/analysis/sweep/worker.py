@@ -11,7 +11,7 @@ from nivel.native.workers import serve
 
 
 def main() -> None:
-    """Compute variants until the input ends. A job is a task, or None for the one before, and values by path.
+    """Compute variants until the input ends. A job is a task, or None for the one before, and values by path of each of them.
 
     What goes on for longer than the time limit of the task ends the process, whatever it does.
     """
@@ -20,12 +20,12 @@ def main() -> None:
 
         def answer(job: Any) -> Any:
             nonlocal task
-            sent, values = job
+            sent, rows = job
             task = sent or task
             if task.time_limit is not None:
                 faulthandler.dump_traceback_later(task.time_limit, exit=True, file=nowhere)
             try:
-                return nivel.analysis.sweep.variant.run_variant(task, values)
+                return [*nivel.analysis.sweep.variant.run_variants(task, rows)]
             finally:
                 faulthandler.cancel_dump_traceback_later()
 

@@ -12,6 +12,7 @@ from nivel.elements.output import Output, add_outputs, is_angle, of_effort, of_v
 from nivel.elements.rows import Row, element
 from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import maximum, real
+from nivel.kernels.core.number import where
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import evaluate_function, evaluate_motion
 from nivel.kernels.record.record import NONE, record_at
@@ -196,10 +197,7 @@ def drive(machine, index, n, t):
     if real(gain) > 0.0:
         effort = gain * (effort - coordinates.rate[q])
     # not min and max: these would hide an effort that is not a number
-    if real(effort) > real(limit):
-        effort = limit
-    elif real(effort) < -real(limit):
-        effort = -limit
+    effort = where(real(effort) > real(limit), limit, where(real(effort) < -real(limit), -limit, effort))
     power = add_coordinate_force(machine, q, effort)
     out[first], out[first + 1] = effort, power
     out[first + 2], out[first + 3] = coordinates.value[q], coordinates.rate[q]
@@ -222,12 +220,11 @@ def servo(machine, index, n, t):
     if x != NONE:
         effort = effort + n[ServoRow.INTEGRAL] * elements.state[x]
     wanted, limit = real(effort), real(n[ServoRow.LIMIT])
-    if wanted > limit:
-        effort = n[ServoRow.LIMIT]
-    elif wanted < -limit:
-        effort = -n[ServoRow.LIMIT]
-    if x != NONE and not ((wanted > limit and real(error) > 0.0) or (wanted < -limit and real(error) < 0.0)):
-        elements.state_rate[x] += error
+    most = n[ServoRow.LIMIT]
+    effort = where(wanted > limit, most, where(wanted < -limit, -most, effort))
+    if x != NONE:
+        further = where(wanted > limit, real(error), where(wanted < -limit, -real(error), 0.0))
+        elements.state_rate[x] += where(further > 0.0, 0.0 * error, error)
     power = add_coordinate_force(machine, q, effort)
     out[first], out[first + 1] = effort, power
     out[first + 2], out[first + 3], out[first + 4] = coordinates.value[q], coordinates.rate[q], error

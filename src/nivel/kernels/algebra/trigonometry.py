@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.number import where
 from nivel.native.function import stage
 
 # π/2 in three parts; the first two have 33 bits, so that their products with less than 2²⁰ quarter turns are exact.
@@ -31,11 +32,7 @@ def cosine_and_sine(x):
     z = r * r
     s = r + r * z * (S3 + z * (S5 + z * (S7 + z * (S9 + z * (S11 + z * (S13 + z * (S15 + z * S17)))))))
     c = 1.0 + z * (-0.5 + z * (C4 + z * (C6 + z * (C8 + z * (C10 + z * (C12 + z * (C14 + z * (C16 + z * C18))))))))
-    turn = np.int64(quarters) & 3
-    if turn == 0:
-        return c, s
-    if turn == 1:
-        return -s, c
-    if turn == 2:
-        return -c, -s
-    return s, -c
+    turn = quarters - 4.0 * np.floor(0.25 * quarters)
+    odd = turn - 2.0 * np.floor(0.5 * turn) > 0.5
+    c, s = where(odd, s, c), where(odd, c, s)
+    return where(np.abs(turn - 1.5) < 1.0, -c, c), where(turn > 1.5, -s, s)

@@ -6,7 +6,7 @@ compiled code does not either. Indices are uint32: signed ones cost a wrap-aroun
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import cache
 from typing import Annotated, Any, Final, get_args, get_origin, get_type_hints
 
@@ -31,36 +31,37 @@ U1 = Annotated[NDArray[np.uint32], 1, "index"]
 U2 = Annotated[NDArray[np.uint32], 2, "index"]
 I1 = Annotated[NDArray[np.int64], 1, "count"]
 A1 = Annotated[NDArray[np.uint64], 1, "address"]
+# kinds that may be other numbers
+NUMBERS: Final = ("real", "work")
+
+
+def changed(record: Any, change: Callable[[str, Any], Any]) -> Any:
+    """The record with change(kind, array) in place of each array."""
+    kinds = zip(_kinds(type(record)), record, strict=True)
+    return type(record)(*(changed(x, change) if kind == "record" else change(kind, x) for kind, x in kinds))
 
 
 def dual_twin(record: Any) -> Any:
     """The record with dual numbers for what an evaluation leaves, without slopes yet; everything else is shared."""
-    twins = (_TWIN[kind](value) for kind, value in zip(_kinds(type(record)), record, strict=True))
-    return type(record)(*twins)
+    return changed(record, lambda kind, array: duals(array) if kind == "work" else array)
 
 
 def whole_twin(record: Any) -> Any:
     """The record with dual numbers for all its numbers, without slopes yet; what are the same arrays in it, are the same in the twin."""
-    return _whole(record, {})
+    known: dict[tuple[Any, ...], Any] = {}
 
+    def twin(kind: str, value: Any) -> Any:
+        if kind not in NUMBERS:
+            return known.setdefault((id(value),), value.copy())
+        place = (value.ctypes.data, value.shape) if value.size else (id(value),)
+        return known.setdefault(place, duals(value))
 
-def _whole(record: Any, known: dict[tuple[Any, ...], Any]) -> Any:
-    fields = []
-    for kind, value in zip(_kinds(type(record)), record, strict=True):
-        if kind == "record":
-            fields.append(_whole(value, known))
-        elif kind in ("real", "work"):
-            place = (value.ctypes.data, value.shape) if value.size else (id(value),)
-            fields.append(known.setdefault(place, duals(value)))
-        else:
-            fields.append(known.setdefault((id(value),), value.copy()))
-    return type(record)(*fields)
+    return changed(record, twin)
 
 
 def lanes_of(twin: Any) -> Any:
     """A twin with its dual numbers as lanes (…, 1 + LANES) of the same memory, for Python."""
-    fields = (_LANES[kind](value) for kind, value in zip(_kinds(type(twin)), twin, strict=True))
-    return type(twin)(*fields)
+    return changed(twin, lambda kind, array: _lanes(array) if kind == "work" else array)
 
 
 def copied(record: Any) -> Any:
@@ -86,14 +87,5 @@ def _kinds(record_class: type) -> tuple[str, ...]:
     )
 
 
-def _same(array: Any) -> Any:
-    return array
-
-
 def _lanes(array: Any) -> Any:
     return array.view(np.float64).reshape(*array.shape, 1 + LANES)
-
-
-_OTHERS: Final = dict.fromkeys(("real", "plain", "complex", "index", "count", "address"), _same)
-_TWIN: Final[Mapping[str, Callable[[Any], Any]]] = {"record": dual_twin, "work": duals, **_OTHERS}
-_LANES: Final[Mapping[str, Callable[[Any], Any]]] = {"record": lanes_of, "work": _lanes, **_OTHERS}

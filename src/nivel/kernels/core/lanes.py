@@ -6,31 +6,10 @@ numbers of the record at this address are dual, for gradients of runs; where it 
 
 from __future__ import annotations
 
-from typing import Any
-
 from nivel.native.duals import LANES
-from nivel.native.function import Intrinsic, leaf
+from nivel.native.function import leaf, written
 
-
-def _unit() -> Any:
-    from nivel.native.with_numba.duals import unit
-
-    return unit
-
-
-def _slope() -> Any:
-    from nivel.native.with_numba.duals import slope
-
-    return slope
-
-
-def _is_whole() -> Any:
-    from nivel.native.with_numba.views import is_whole
-
-    return is_whole
-
-
-unit, slope, is_whole = Intrinsic(_unit), Intrinsic(_slope), Intrinsic(_is_whole)
+unit, slope, is_whole = written("duals:unit"), written("duals:slope"), written("views:is_whole")
 
 
 @leaf

@@ -18,15 +18,16 @@ from nivel.native.signature import LAW, Signature
 
 
 class Family:
-    """A function that kernels call by its address. code, twin, whole : its entries, on real numbers, for records whose work
-    is dual numbers, and for those of which all numbers are."""
+    """A function that kernels call by its address. code, twin, whole, packed : its entries, on real numbers, for records whose
+    work is dual numbers, for those of which all numbers are, and for those of which all numbers are packs."""
 
     def __init__(self, function: Callable[..., Any], signature: Signature) -> None:
         self.py_func, self.module = function, function.__module__
         name = f"{function.__module__}:{function.__qualname__}"
         self.code = Entry(function, signature, f"{name}.code")
-        self.twin = Entry(function, signature.on_duals, f"{name}.twin")
-        self.whole = Entry(function, signature.wholly_on_duals, f"{name}.whole")
+        self.twin = Entry(function, signature.on("twin"), f"{name}.twin")
+        self.whole = Entry(function, signature.on("whole"), f"{name}.whole")
+        self.packed = Entry(function, signature.on("packed"), f"{name}.packed")
 
     @cached_property
     def address(self) -> int:

@@ -15,6 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.analytic import absolute, arctan2, maximum, minimum, real, tanh
+from nivel.kernels.core.number import where
 from nivel.kernels.record.hook import law
 from nivel.native.entry import entry
 from nivel.native.function import leaf
@@ -79,9 +80,7 @@ def operate(operation, x, y, condition):
     if operation == LESS_EQUAL:
         return truth(x, y, real(x) <= real(y))
     if operation == CHOOSE:
-        if real(condition) > 0.0:
-            return x
-        return y if real(condition) <= 0.0 else condition
+        return where(real(condition) > 0.0, x, where(real(condition) <= 0.0, y, condition))
     if operation == FLOOR:
         return 0.0 * x + np.floor(real(x))
     if operation == TANH:
@@ -92,9 +91,8 @@ def operate(operation, x, y, condition):
 @leaf
 def truth(x, y, holds):
     """1 or 0; no number where one of x and y is none."""
-    if real(x) != real(x) or real(y) != real(y):
-        return x + y
-    return 0.0 * x + (1.0 if holds else 0.0)
+    value = 0.0 * x + where(holds, 1.0, 0.0)
+    return where(real(x) == real(x), where(real(y) == real(y), value, x + y), x + y)
 
 
 @leaf
@@ -126,7 +124,7 @@ def place(x):
 def side(difference, held):
     """1 or -1; no number where the difference is none."""
     found = truth(difference, 0.0, real(difference) > 0.0)
-    return 2.0 * found - 1.0 if real(held) == 0.0 else real(held) + 0.0 * found
+    return where(real(held) == 0.0, 2.0 * found - 1.0, real(held) + 0.0 * found)
 
 
 @leaf

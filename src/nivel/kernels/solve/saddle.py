@@ -11,6 +11,7 @@ import numpy as np
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.dense import factorise_pivoted, gather, solve_pivoted
 from nivel.kernels.algebra.sparse import DEPENDENT, factorise, solve
+from nivel.kernels.core.number import where
 from nivel.kernels.core.status import MULTIPLIERS_NOT_FOUND, OK, SINGULAR
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf, stage
@@ -199,12 +200,12 @@ def subtract_rows(saddle, width):
 
 
 @stage
-def correction(machine, violation, width):
-    """z = -Wᵀ S⁻¹ violation: the whitened change that removes a violation of the linearised rows, least in the mass metric."""
+def correction(machine, violation, share, width):
+    """z = -Wᵀ S⁻¹ violation: the whitened change that removes a share of the violation of the linearised rows, least in the mass metric."""
     record = record_at(machine)
     saddle = record.saddle
     for k in range(saddle.b.shape[0]):
-        saddle.b[k] = violation[saddle.row[k]]
+        saddle.b[k] = share * violation[saddle.row[k]]
     solve_rows(machine, 0.0)
     for body in range(saddle.z.shape[0]):
         for i in range(width):
@@ -228,9 +229,8 @@ def contradicts(saddle, constraints, failure):
 @stage
 def exceeds(saddle, violation, scale, tolerance):
     """Whether any row of the saddle is violated by more than `tolerance` times its scale."""
+    rows = 0.0
     for k in range(saddle.row.shape[0]):
         row = saddle.row[k]
-        limit = tolerance * scale[row]
-        if violation[row] > limit or violation[row] < -limit:
-            return True
-    return False
+        rows = where(np.abs(violation[row]) > tolerance * scale[row], 1.0, rows)
+    return rows > 0.0

@@ -32,39 +32,48 @@ _I32, _DOUBLE = ir.IntType(32), ir.DoubleType()
 ZERO, ONE = ir.Constant(_DOUBLE, 0.0), ir.Constant(_DOUBLE, 1.0)
 
 
-class Dual(types.Type):
-    """A value and its slopes along n directions."""
+class Vector(types.Type):
+    """Numbers that are `lanes` doubles."""
 
-    def __init__(self, n: int) -> None:
-        self.n = n
-        super().__init__(f"Dual({n})")
+    def __init__(self, name: str, lanes: int) -> None:
+        self.lanes = lanes
+        super().__init__(name)
 
     @property
     def vector(self) -> Any:
         """Its type in LLVM."""
-        return ir.VectorType(_DOUBLE, self.n + 1)
+        return ir.VectorType(_DOUBLE, self.lanes)
 
     def can_convert_from(self, typingctx: Any, other: Any) -> Any:
-        """Real numbers have no slopes."""
-        return Conversion.promote if _is_real(other) else None
+        """Every real number is one of them."""
+        return Conversion.promote if is_real(other) else None
 
     def unify(self, typingctx: Any, other: Any) -> Any:
-        """With real numbers a dual number."""
-        return self if _is_real(other) or other == self else None
+        """With real numbers one of them."""
+        return self if is_real(other) or other == self else None
+
+
+class Dual(Vector):
+    """A value and its slopes along n directions."""
+
+    def __init__(self, n: int) -> None:
+        self.n = n
+        super().__init__(f"Dual({n})", n + 1)
 
 
 DUAL = Dual(LANES)
 
 
 @register_model(Dual)
-class DualModel(PrimitiveModel):
+class VectorModel(PrimitiveModel):
     """A vector."""
 
-    def __init__(self, manager: Any, kind: Dual) -> None:
+    def __init__(self, manager: Any, kind: Vector) -> None:
         super().__init__(manager, kind, kind.vector)
 
 
-def _is_real(kind: Any) -> bool:
+def is_real(kind: Any) -> bool:
+    """Whether it is a type of real numbers, or what is taken for one."""
     return isinstance(kind, types.Float | types.Integer | types.Boolean)
 
 
@@ -86,14 +95,14 @@ def constant(b: Any, value: Any, kind: Dual) -> Any:
     return with_value(b, ir.Constant(kind.vector, [0.0] * (kind.n + 1)), value)
 
 
-def _spread(b: Any, value: Any, kind: Dual) -> Any:
+def spread(b: Any, value: Any, kind: Vector) -> Any:
     """A real number in all lanes."""
     return _lane_0_everywhere(b, with_value(b, ir.Constant(kind.vector, ir.Undefined), value), kind)
 
 
-def _lane_0_everywhere(b: Any, x: Any, kind: Dual) -> Any:
-    nothing, lanes = ir.Constant(kind.vector, ir.Undefined), [0] * (kind.n + 1)
-    return b.shuffle_vector(x, nothing, ir.Constant(ir.VectorType(_I32, kind.n + 1), lanes))
+def _lane_0_everywhere(b: Any, x: Any, kind: Vector) -> Any:
+    nothing, lanes = ir.Constant(kind.vector, ir.Undefined), [0] * kind.lanes
+    return b.shuffle_vector(x, nothing, ir.Constant(ir.VectorType(_I32, kind.lanes), lanes))
 
 
 def _multiply_add(b: Any, x: Any, y: Any, z: Any, kind: Dual) -> Any:
@@ -110,7 +119,7 @@ def _joined(b: Any, of_value: Any, of_slopes: Any, kind: Dual) -> Any:
 
 def _scaled(b: Any, x: Any, value: Any, slope: Any, kind: Dual) -> Any:
     """f(x) from f and f' at the value of x."""
-    return with_value(b, b.fmul(x, _spread(b, slope, kind)), value)
+    return with_value(b, b.fmul(x, spread(b, slope, kind)), value)
 
 
 def _finite(b: Any, slope: Any) -> Any:
@@ -145,38 +154,55 @@ class Operand:
     @property
     def factor(self) -> Any:
         """Itself, or the double in all lanes."""
-        return self.given if self.is_dual else _spread(self._b, self.given, self._wanted)
+        return self.given if self.is_dual else spread(self._b, self.given, self._wanted)
 
 
 Emit = Callable[[Any, Any, Operand, Operand, Dual], Any]
+# functions of two numbers and of one that kernels call, with the types of their results, None: that of the numbers
+OF_TWO: dict[Any, Any] = {}
+OF_ONE: dict[Any, Any] = {}
+
+
+def define(vector: type[Vector], function: Any, counts: Iterable[int], emit: Callable[..., Any], result: Any) -> None:
+    """emit(context, builder, arguments, their types, type): the code for this function of so many numbers, one of which at least is of a
+    type of vectors; the others are doubles. result : its type, None: that of the vectors."""
+    counts = tuple(counts)
+
+    def among(kinds: Any) -> Any:
+        found = next((each for each in kinds if isinstance(each, vector)), None)
+        return found if all(each == found or is_real(each) for each in kinds) else None
+
+    @_infer_global(function)
+    class Template(AbstractTemplate):
+        def generic(self, args: Any, kws: Any) -> Any:
+            kind = among(args)
+            if len(args) not in counts or kws or kind is None:
+                return None
+            return signature(result or kind, *(each if each == kind else _F for each in args))
+
+    def low(context: Any, b: Any, sig: Any, args: Any) -> Any:
+        return emit(context, b, args, sig.args, among(sig.args))
+
+    for count in counts:
+        for kinds in product((vector, types.Float), repeat=count):
+            if vector in kinds:
+                lower_builtin(function, *kinds)(low)
+
+
+def _operands(b: Any, args: Any, kinds: Any, kind: Dual) -> list[Operand]:
+    return [Operand(b, each, given, kind) for each, given in zip(args, kinds, strict=True)]
 
 
 def _binary(functions: Iterable[Any], emit: Emit, result: Any = None) -> None:
     """emit(context, builder, x, y, type): the code for these functions of two numbers, one of which is dual at least."""
+
+    def of_two(context: Any, b: Any, args: Any, kinds: Any, kind: Dual) -> Any:
+        x, y = _operands(b, args, kinds, kind)
+        return emit(context, b, x, y, kind)
+
     for function in functions:
-
-        @_infer_global(function)
-        class Template(AbstractTemplate):
-            def generic(self, args: Any, kws: Any) -> Any:
-                kind = _dual_among(args)
-                if len(args) != 2 or kws or kind is None:
-                    return None
-                return signature(result or kind, *(each if each == kind else _F for each in args))
-
-        def low(context: Any, b: Any, sig: Any, args: Any) -> Any:
-            kind = _dual_among(sig.args)
-            assert kind is not None
-            x, y = (Operand(b, each, given, kind) for each, given in zip(args, sig.args, strict=True))
-            return emit(context, b, x, y, kind)
-
-        for pair in ((Dual, Dual), (Dual, types.Float), (types.Float, Dual)):
-            lower_builtin(function, *pair)(low)
-
-
-def _dual_among(kinds: Any) -> Dual | None:
-    """The dual number among types of numbers, None where there is none, or anything else."""
-    found = next((each for each in kinds if isinstance(each, Dual)), None)
-    return found if all(each == found or _is_real(each) for each in kinds) else None
+        OF_TWO[function] = result
+        define(Dual, function, [2], of_two, result)
 
 
 def _add(context: Any, b: Any, x: Operand, y: Operand, kind: Dual) -> Any:
@@ -205,7 +231,7 @@ def _divide(context: Any, b: Any, x: Operand, y: Operand, kind: Dual) -> Any:
         return _scaled(b, x.given, value, share, kind)
     if not x.is_dual:
         return _scaled(b, y.given, value, b.fneg(b.fmul(value, share)), kind)
-    slopes = _multiply_add(b, _spread(b, b.fneg(value), kind), y.given, x.given, kind)
+    slopes = _multiply_add(b, spread(b, b.fneg(value), kind), y.given, x.given, kind)
     return _scaled(b, slopes, value, share, kind)
 
 
@@ -217,7 +243,7 @@ def _by_slopes(rule: Callable[..., tuple[Any, Any, Any]]) -> Emit:
         total = ir.Constant(kind.vector, [0.0] * (kind.n + 1))
         for operand, slope in zip((x, y), slopes, strict=True):
             if operand.is_dual:
-                total = _multiply_add(b, operand.given, _spread(b, slope, kind), total, kind)
+                total = _multiply_add(b, operand.given, spread(b, slope, kind), total, kind)
         return with_value(b, total, value)
 
     return emit
@@ -241,10 +267,10 @@ def _power(context: Any, b: Any, x: Operand, y: Operand, kind: Dual) -> Any:
         if y.is_dual:
             at_zero = b.select(b.fcmp_ordered("==", y.value, ONE), ONE, ZERO)
             along = b.select(b.fcmp_ordered("==", x.value, ZERO), at_zero, along)
-        total = b.fmul(x.given, _spread(b, _finite(b, along), kind))
+        total = b.fmul(x.given, spread(b, _finite(b, along), kind))
     if y.is_dual:
         along = _finite(b, b.fmul(value, call(math.log, x.value)))
-        total = _multiply_add(b, y.given, _spread(b, along, kind), total, kind)
+        total = _multiply_add(b, y.given, spread(b, along, kind), total, kind)
     return with_value(b, total, value)
 
 
@@ -294,9 +320,9 @@ _binary((math.hypot, np.hypot), _by_slopes(_hypotenuse))
 _binary((math.copysign, np.copysign), _by_slopes(_copy_sign))
 _binary((np.maximum,), _choice(">"))
 _binary((np.minimum,), _choice("<"))
-for _operation in (operator.lt, operator.le, operator.gt, operator.ge, operator.eq, operator.ne):
-    _symbol = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "eq": "==", "ne": "!="}[_operation.__name__]
-    _binary((_operation,), _comparison(_symbol), types.boolean)
+SYMBOLS = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "eq": "==", "ne": "!="}
+for _name, _symbol in SYMBOLS.items():
+    _binary((getattr(operator, _name),), _comparison(_symbol), types.boolean)
 
 
 # numbers that `max` and `min` take at most; more than two are compared one after the other
@@ -304,26 +330,14 @@ MOST = 5
 
 
 def _of_many(function: Any, symbol: str) -> None:
-    @_infer_global(function)
-    class Template(AbstractTemplate):
-        def generic(self, args: Any, kws: Any) -> Any:
-            kind = _dual_among(args)
-            if not 2 <= len(args) <= MOST or kws or kind is None:
-                return None
-            return signature(kind, *(each if each == kind else _F for each in args))
-
-    def low(context: Any, b: Any, sig: Any, args: Any) -> Any:
-        kind = sig.return_type
-        found, *others = (Operand(b, each, given, kind) for each, given in zip(args, sig.args, strict=True))
+    def emit(context: Any, b: Any, args: Any, kinds: Any, kind: Dual) -> Any:
+        found, *others = _operands(b, args, kinds, kind)
         for each in others:
             further = b.fcmp_ordered(symbol, each.value, found.value)
             found = Operand(b, b.select(further, each.dual, found.dual), kind, kind)
         return found.given
 
-    for count in range(2, MOST + 1):
-        for kinds in product((Dual, types.Float), repeat=count):
-            if Dual in kinds:
-                lower_builtin(function, *kinds)(low)
+    define(Dual, function, range(2, MOST + 1), emit, None)
 
 
 _of_many(max, ">")
@@ -336,16 +350,8 @@ _of_many(min, "<")
 def _unary(functions: Iterable[Any], emit: Callable[[Any, Any, Any, Dual], Any], result: Any = None) -> None:
     """emit(context, builder, x, type): the code for these functions of a dual number."""
     for function in functions:
-
-        @_infer_global(function)
-        class Template(AbstractTemplate):
-            def generic(self, args: Any, kws: Any) -> Any:
-                is_one = len(args) == 1 and not kws and isinstance(args[0], Dual)
-                return signature(result or args[0], args[0]) if is_one else None
-
-        @lower_builtin(function, Dual)
-        def low(context: Any, b: Any, sig: Any, args: Any) -> Any:
-            return emit(context, b, args[0], sig.args[0])
+        OF_ONE[function] = result
+        define(Dual, function, [1], lambda context, b, args, kinds, kind: emit(context, b, args[0], kind), result)
 
 
 def _smooth(functions: Iterable[Any], rule: Callable[..., tuple[Any, Any]]) -> None:
@@ -484,6 +490,10 @@ _of_value((np.isnan, math.isnan, np.isfinite, math.isfinite, np.isinf, math.isin
 _of_value((math.floor, math.ceil, math.trunc), types.int64)
 
 
+# types that `np.int64` takes besides those of Numba
+HAVE_WHOLE_PARTS: list[type] = [Dual]
+
+
 @infer_getattr
 class Int64Calls(AttributeTemplate):
     """`np.int64(x)` is the whole part of the value; of other numbers it is what Numba takes it for."""
@@ -499,7 +509,7 @@ class Int64Calls(AttributeTemplate):
             key = kind
 
             def generic(self, args: Any, kws: Any) -> Any:
-                if len(args) == 1 and isinstance(args[0], Dual):
+                if len(args) == 1 and isinstance(args[0], tuple(HAVE_WHOLE_PARTS)):
                     return signature(types.int64, args[0])
                 return usual.get_call_type(self.context, args, kws)
 

@@ -24,10 +24,10 @@ from numba.core.registry import cpu_target
 from numba.core.runtime.nrt import rtsys
 
 from nivel.native.function import OPTIONS
-from nivel.native.signature import BROKEN, Signature
+from nivel.native.signature import BROKEN, IN_C, Signature
 from nivel.native.with_numba import front_end, functions, known_parts
 from nivel.native.with_numba.arrays import WORD
-from nivel.native.with_numba.calls import _IN_C, ALIGNMENT, from_c, function_type
+from nivel.native.with_numba.calls import ALIGNMENT, VECTORS, from_c, function_type
 from nivel.native.with_numba.kinds import RESULTS, arguments_of
 
 _njit: Any = njit
@@ -206,10 +206,10 @@ def _in_c(context: Any, description: Any, signature: Signature, symbol: str) -> 
     function = ir.Function(module, function_type(signature), symbol)
     builder = ir.IRBuilder(function.append_basic_block())
     parts = list(function.args)
-    place = parts.pop(0) if signature.result == "dual" else None
+    place = parts.pop(0) if signature.result in VECTORS else None
     values = []
     for kind in signature.arguments:
-        count = len(_IN_C[kind])
+        count = len(IN_C[kind])
         values.append(from_c(context, builder, kind, parts[:count]))
         parts = parts[count:]
     callee = context.declare_function(module, description)

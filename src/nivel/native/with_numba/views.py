@@ -15,7 +15,8 @@ from numba.extending import infer_getattr, intrinsic, lower_getattr_generic, reg
 
 from nivel.native.with_numba.arrays import WORD, array_of, item_pointer
 from nivel.native.with_numba.duals import DUAL
-from nivel.native.with_numba.kinds import TWIN, WHOLE, record_type
+from nivel.native.with_numba.kinds import PACKED, TWIN, WHOLE, record_type
+from nivel.native.with_numba.packs import PACK
 
 BYTES = 8
 # words of an array structure before its shape: owner, parent, items, item size, data
@@ -96,11 +97,12 @@ def reader(record_class: type) -> Any:
         types.uint64: View(record_type(record_class), ""),
         TWIN: View(record_type(record_class, DUAL), " on dual numbers"),
         WHOLE: View(record_type(record_class, DUAL, DUAL), " wholly on dual numbers"),
+        PACKED: View(record_type(record_class, PACK, PACK), " on packs"),
     }
 
     @intrinsic
     def record_at(typingctx: Any, address: Any) -> Any:
-        kind = address if address in (TWIN, WHOLE) else types.uint64
+        kind = address if address in views else types.uint64
 
         def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
             return args[0] if kind == types.uint64 else builder.extract_value(args[0], 0)

@@ -45,10 +45,10 @@ def dual_address(address: int) -> int:
     first, *others = _twins[address]
     for other in others:
         try:
-            return address_of_law(first, LAW.on_duals)
+            return address_of_law(first, LAW.on("twin"))
         except CompilationError:  # there is another way
             first = other
-    return address_of_law(first, LAW.on_duals)
+    return address_of_law(first, LAW.on("twin"))
 
 
 def law_address(law: PythonLaw, *, motion: bool) -> int:

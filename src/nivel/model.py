@@ -12,7 +12,7 @@ from nivel.elements.joints.joint import Joint
 from nivel.errors import Fault, ModelError, retold
 from nivel.files.outline import Known
 from nivel.files.reader import Origin
-from nivel.files.scope import FileNames, read_known, read_name_notes, read_names
+from nivel.files.scope import FileNames, Scope
 from nivel.files.sources import Sources
 from nivel.files.target import write_file
 from nivel.files.values import elements_named, replaced, section_of_element, value_at, whole_path, with_values
@@ -146,32 +146,27 @@ class Model(Elements):
             raise ModelError(Fault.at(name, message))
         object.__setattr__(self, name, value)
 
+    @property
+    def _scope(self) -> Scope | None:
+        """The machine's file; None where there is none."""
+        its = self.origin
+        if not its.source:
+            return None
+        return Scope(its.source, its.file, Sources(its.allow_code).inside(its.file), its.values)
+
     @cached_property
     def _file_names(self) -> FileNames:
-        origin = self.origin
-        if not origin.source:
-            return FileNames({}, {})
-        sources = Sources(origin.allow_code).inside(origin.file)
-        return read_names(origin.source, origin.file, sources, overrides=origin.values)
+        return FileNames({}, {}) if self._scope is None else self._scope.names()
 
     @cached_property
     def _known(self) -> Known | None:
         """Its elements, as the file has them; None where there is no file."""
-        origin = self.origin
-        if not origin.source:
-            return None
-        sources = Sources(origin.allow_code).inside(origin.file)
-        return read_known(origin.source, origin.file, sources, overrides=origin.values, record=self.record)
+        return self._scope and self._scope.known(self.record)
 
     @cached_property
     def name_notes(self) -> tuple[str, ...]:
         """Sentences on parameters of the machine's file that have the name of a unit or of a constant, and stand in its place."""
-        origin = self.origin
-        if not origin.source:
-            return ()
-        return read_name_notes(
-            origin.source, origin.file, Sources(origin.allow_code).inside(origin.file), overrides=origin.values
-        )
+        return () if self._scope is None else self._scope.name_notes()
 
     @property
     def remarks(self) -> tuple[Fault, ...]:

@@ -10,7 +10,7 @@ from typing import Any
 from nivel.errors import Fault
 from nivel.files.outline import FORMAT, Known
 from nivel.files.overrides import prefix_of
-from nivel.files.scope import read_scope
+from nivel.files.scope import Scope
 from nivel.files.sources import Sources, read_text
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.lazy import dataclass, field, replace
@@ -45,7 +45,7 @@ def parse_machine(
     Messages show the name `file`; its stem is the machine's default name. `known`: of another reading of the same file.
     Raises ModelError.
     """
-    return read_scope(text, file, Sources(allow_code).inside(file), overrides=overrides or {}, known=known)
+    return Scope(text, file, Sources(allow_code).inside(file), overrides or {}).record(known)
 
 
 def locate(text: str, path: str) -> tuple[int, int]:

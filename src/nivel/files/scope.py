@@ -42,31 +42,6 @@ MOST_ROUNDS: Final = 5  # of functions that call for other units in the expressi
 Elements = dict[str, dict[str, Record]]
 
 
-def read_scope(
-    text: str,
-    file: str,
-    sources: Sources,
-    *,
-    overrides: Mapping[str, object],
-    user: tuple[Tree, str, Assembly] | None = None,
-    known: Known | None = None,
-) -> MachineRecord:
-    """The machine in `text`. `user`: the file, and the assembly in it, that this is a part of. `known`: of another reading of it.
-
-    Raises ModelError.
-    """
-    tree, parameters = _tree_of(text, file, sources, overrides, user)
-    return _record(tree, parameters, _expanded(tree, parameters, sources), known)
-
-
-def read_known(
-    text: str, file: str, sources: Sources, *, overrides: Mapping[str, object], record: MachineRecord
-) -> Known:
-    """The elements of the machine that was read as `record`."""
-    tree, parameters = _tree_of(text, file, sources, overrides, None)
-    return Known.of(tree, parameters, record)
-
-
 @dataclass(frozen=True)
 class FileNames:
     """What a machine file names beside the elements: values of its parameters, and its assemblies with all their values. deciding : the
@@ -77,26 +52,82 @@ class FileNames:
     deciding: frozenset[str] = frozenset()
 
 
-def read_names(text: str, file: str, sources: Sources, *, overrides: Mapping[str, object]) -> FileNames:
-    """The names in a machine file that can be read without fault. Values in SI units."""
-    tree, values = _tree_of(text, file, sources, overrides, None)
-    entries = section_of(tree, "assemblies").items()
-    assemblies = {name: nivel.files.assembly.read_assembly(tree, name, given, values) for name, given in entries}
-    return FileNames(
-        {name: each.value for name, each in values.items() if isinstance(each, Number)},
-        {name: assembly for name, assembly in assemblies.items() if assembly is not None},
-        deciding(tree),
-    )
+@dataclass(frozen=True)
+class Scope:
+    """A file with all that it includes. overrides : set from outside. user : the file, and the assembly in it, that this is a part of."""
 
+    text: str
+    file: str
+    sources: Sources
+    overrides: Mapping[str, object]
+    user: tuple[Tree, str, Assembly] | None = None
 
-def read_name_notes(text: str, file: str, sources: Sources, *, overrides: Mapping[str, object]) -> tuple[str, ...]:
-    """What a reader has to know of parameters with the name of a unit or of a constant, in a file that was read without fault."""
-    tree = read_tree(text, file)
-    about_files, _, others = in_order(overrides)
-    override(tree, about_files)
-    include(tree, sources)
-    override(tree, {path: value for path, value in others.items() if path.partition(".")[0].strip() == "parameters"})
-    return name_notes(resolve(section_of(tree, "parameters"))[0])
+    def record(self, known: Known | None = None) -> MachineRecord:
+        """The machine. known : of another reading of the file. Raises ModelError."""
+        tree, parameters = self._tree()
+        return _record(tree, parameters, _expanded(tree, parameters, self.sources), known)
+
+    def known(self, record: MachineRecord) -> Known:
+        """The elements of the machine that was read as `record`."""
+        return Known.of(*self._tree(), record)
+
+    def names(self) -> FileNames:
+        """The names that can be read without fault. Values in SI units."""
+        tree, values = self._tree()
+        entries = section_of(tree, "assemblies").items()
+        assemblies = {name: nivel.files.assembly.read_assembly(tree, name, given, values) for name, given in entries}
+        return FileNames(
+            {name: each.value for name, each in values.items() if isinstance(each, Number)},
+            {name: assembly for name, assembly in assemblies.items() if assembly is not None},
+            deciding(tree),
+        )
+
+    def name_notes(self) -> tuple[str, ...]:
+        """What a reader has to know of parameters with the name of a unit or of a constant, in a file that was read without fault."""
+        tree = read_tree(self.text, self.file)
+        about_files, _, others = in_order(self.overrides)
+        override(tree, about_files)
+        include(tree, self.sources)
+        override(
+            tree, {path: value for path, value in others.items() if path.partition(".")[0].strip() == "parameters"}
+        )
+        return name_notes(resolve(section_of(tree, "parameters"))[0])
+
+    def _tree(self) -> tuple[Tree, Parameters]:
+        """The file with all that it includes and what was set from outside, and the values of its parameters."""
+        tree = read_tree(self.text, self.file)
+        about_files, of_masses, others = in_order(self.overrides)
+        override(tree, about_files)
+        check_start(tree)
+        include(tree, self.sources)
+        override(tree, of_masses)
+        check_sections(tree)
+        read_mass_properties(tree, self.sources)
+        place_body_files(tree)
+        override(tree, with_units(tree, others))
+        check_sections(tree)
+        if self.user is not None:
+            _, name, assembly = self.user
+            as_part(tree, assembly.only, f"`assemblies.{name}: {{file: {assembly.file}, only: [bodies, joints]}}`")
+            nivel.files.assembly.given_parameters(tree, *self.user)
+        touching = _has_contacts(tree)
+        if touching:
+            nivel.files.height_file.spread_sets(tree)
+        add_joint_parts(tree)
+        read_meshes(tree, self.sources)
+        if touching:
+            nivel.files.convex_parts.divide_meshes(tree)
+            nivel.files.convex_parts.divide_heaps(tree)
+            nivel.files.height_file.read_heights(tree, self.sources)
+            nivel.files.tyre_file.read_tyres(tree, self.sources)
+        read_python_laws(tree, self.sources)
+        read_unit_blocks(tree, self.sources)
+        read_csv_tables(tree, self.sources)
+        parameters, faults = resolve(section_of(tree, "parameters"))
+        tree.faults += [tree.fault(("parameters", name), message) for name, message in faults.items()]
+        functions, wrong = resolve_functions(section_of(tree, "functions"), parameters)
+        tree.faults += [tree.fault(("functions", *place), message) for place, message in wrong.items()]
+        return tree, {**parameters, **functions}
 
 
 def _has_contacts(tree: Tree) -> bool:
@@ -108,44 +139,6 @@ def _has_contacts(tree: Tree) -> bool:
         or any(isinstance(each, dict) and each.get("type") in ("contact", "contacts", "tyre") for each in forces)
         or any(isinstance(each, dict) and "convex_parts" in each for each in shapes)
     )
-
-
-def _tree_of(
-    text: str, file: str, sources: Sources, overrides: Mapping[str, object], user: tuple[Tree, str, Assembly] | None
-) -> tuple[Tree, Parameters]:
-    """The file with all that it includes and what was set from outside, and the values of its parameters."""
-    tree = read_tree(text, file)
-    about_files, of_masses, others = in_order(overrides)
-    override(tree, about_files)
-    check_start(tree)
-    include(tree, sources)
-    override(tree, of_masses)
-    check_sections(tree)
-    read_mass_properties(tree, sources)
-    place_body_files(tree)
-    override(tree, with_units(tree, others))
-    check_sections(tree)
-    if user is not None:
-        as_part(tree, user[2].only, f"`assemblies.{user[1]}: {{file: {user[2].file}, only: [bodies, joints]}}`")
-        nivel.files.assembly.given_parameters(tree, *user)
-    touching = _has_contacts(tree)
-    if touching:
-        nivel.files.height_file.spread_sets(tree)
-    add_joint_parts(tree)
-    read_meshes(tree, sources)
-    if touching:
-        nivel.files.convex_parts.divide_meshes(tree)
-        nivel.files.convex_parts.divide_heaps(tree)
-        nivel.files.height_file.read_heights(tree, sources)
-        nivel.files.tyre_file.read_tyres(tree, sources)
-    read_python_laws(tree, sources)
-    read_unit_blocks(tree, sources)
-    read_csv_tables(tree, sources)
-    parameters, faults = resolve(section_of(tree, "parameters"))
-    tree.faults += [tree.fault(("parameters", name), message) for name, message in faults.items()]
-    functions, wrong = resolve_functions(section_of(tree, "functions"), parameters)
-    tree.faults += [tree.fault(("functions", *place), message) for place, message in wrong.items()]
-    return tree, {**parameters, **functions}
 
 
 def _expanded(tree: Tree, parameters: Parameters, sources: Sources) -> Elements:
@@ -172,19 +165,16 @@ def _part(tree: Tree, name: str, assembly: Assembly, sources: Sources) -> Machin
     if found is None:
         return None
     text, file = found
-    overrides = tree.for_parts.get(name, {})
-
-    def read(assembly: Assembly, sources: Sources) -> MachineRecord:
-        return read_scope(text, file, sources.inside(file), overrides=overrides, user=(tree, name, assembly))
-
+    scope = Scope(text, file, sources.inside(file), tree.for_parts.get(name, {}), (tree, name, assembly))
     try:
-        return read(assembly, sources)
+        return scope.record()
     except ModelError as error:
         faults = error.faults
     own = faults
     if assembly.parameters and not sources.again:
         try:
-            read(assembly.replace(parameters={}), replace(sources, again=True))
+            bare = (tree, name, assembly.replace(parameters={}))
+            replace(scope, sources=replace(sources, again=True).inside(file), user=bare).record()
             own = ()
         except ModelError as error:
             own = error.faults

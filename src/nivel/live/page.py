@@ -215,11 +215,8 @@ def _watched(result: Result, span: dict[str, slice], size: float) -> Iterator[lo
         return [*range(span[name].start, span[name].stop)] if name in span else []
 
     energies = [*of("kinetic_energy"), *of("external_work"), *of("dissipated_energy")]
-    said, error, changes = (
-        f"Energy: error {{}} of the largest energy ({BALANCE})",
-        of("energy_error"),
-        of("potential_energy"),
-    )
+    said = f"Energy: error {{}} of the largest energy ({BALANCE})"
+    error, changes = of("energy_error"), of("potential_energy")
     floor = ENERGY_FLOOR * weight(result) * size
     yield local.Watched(said, error, [1.0], False, energies, changes, floor, 0.0, BALANCE.green, BALANCE.amber)
     units = [*json.loads(str(result.attributes.get("constraint_units", "{}"))).values()]

@@ -2,8 +2,9 @@
 
 Two forms of the same NetCDF-4 file. While the run goes on it is in HDF5's SWMR mode (single writer, multiple readers)
 and flushed after every block of frames: other processes read it, and a killed run leaves everything up to its last
-block. When the run is over the file is rewritten, compressed and in chunks that run along time, beside the first one,
-and takes its place in one atomic step.
+block. A block of many variables takes long to write, so the next one waits PATIENCE times as long. When the run is over
+the file is rewritten, compressed and in chunks that run along time, beside the first one, and takes its place in one
+atomic step.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import os
 from math import prod
 from pathlib import Path
 from shutil import copyfile
+from time import perf_counter, thread_time
 from typing import Any
 
 import numpy as np
@@ -36,7 +38,9 @@ HEADER = 256 * 1024  # bytes
 LAST_WORDS = 32 * 1024  # bytes kept free, so that a file that cannot grow any more can still say why
 INDEX = 4096  # bytes
 NO_ROOM = "Free some space, write elsewhere (--out), or keep fewer frames (--output-interval)."
-MOST_KEPT = 16 * 1024 * 1024  # bytes of frames that are also kept in memory, so that they need not be read back
+MOST_KEPT = 256 * 1024 * 1024  # bytes of frames that are also kept in memory, so that they need not be read back
+# A block that took more than QUICK [s] of the processor to write has the next one wait so many times as long.
+QUICK, PATIENCE = 0.05, 4.0
 CONVENTIONS = "CF-1.11"
 COMPRESSION_LEVEL = 2  # gzip after shuffle: higher levels save about 3 % more and take twice as long
 
@@ -57,12 +61,14 @@ class Store:
         self._chunks = 0  # bytes of one chunk of every variable, with what HDF5 needs to find it
         self._variables: list[tuple[Variable, tuple[int, ...]]] = []
         self._header: Header | None = None
+        self._waiting: list[NDArray[np.float64]] = []  # frames that are not yet in the file
+        self._due = 0.0  # [s] of the clock, from which on the next block is written
         self._kept: list[NDArray[np.float64]] | None = []  # frames that were taken; None where they are many
         check_target(self.path, "result file", force=force)
 
     def begin(self, header: Header) -> None:
         """Create all variables and attributes, then let readers in."""
-        self._header, self._kept = header, []
+        self._header, self._kept, self._waiting, self._due = header, [], [], 0.0
         variables, coordinates = resolved(header)
         self._variables = [(variable, shape_of(variable, coordinates)) for variable in variables.values()]
         try:
@@ -90,7 +96,20 @@ class Store:
         """Append frames (n, width). The time is written last: a frame whose time can be read is complete."""
         if self._space is None:
             raise RuntimeError("a sink must begin before it takes frames")
+        self._waiting.append(frames.copy())
+        if self._kept is not None:
+            self._kept.append(self._waiting[-1])
+            self._kept = self._kept if sum(each.nbytes for each in self._kept) <= MOST_KEPT else None
+        if perf_counter() >= self._due:
+            self._write()
+
+    def _write(self) -> None:
+        """Append the frames that wait."""
+        if not self._waiting or self._space is None:
+            return
         self._refuse_foreign()
+        frames, self._waiting = np.concatenate(self._waiting), []
+        begin = thread_time()
         try:
             self._space.ensure(2 * frames.nbytes + self._chunks + LAST_WORDS)
         except OSError as error:
@@ -100,9 +119,8 @@ class Store:
         self._file.flush()
         _append(self._file["time"], frames[:, 0])
         self._file.flush()
-        if self._kept is not None:
-            self._kept.append(frames.copy())
-            self._kept = self._kept if sum(each.nbytes for each in self._kept) <= MOST_KEPT else None
+        spent = thread_time() - begin
+        self._due = perf_counter() + PATIENCE * spent if spent > QUICK else 0.0
 
     def _refuse_foreign(self) -> None:
         """Raise SolveError where another run has put its file in the place of this one, which it must not touch."""
@@ -134,7 +152,8 @@ class Store:
         self.path.unlink(missing_ok=True)
 
     def result(self) -> Result:
-        """What was written so far; the run may go on."""
+        """What was taken so far; the run may go on."""
+        self._write()
         return Result(self._contents({}))
 
     def _contents(self, attributes: Attributes) -> StoredContents:
@@ -149,6 +168,7 @@ class Store:
         """Rewrite the file in its final form; `attributes` (`outcome`, `trust`, …) replace those of the header."""
         if self._file is None:
             raise RuntimeError("a sink must begin before it gives a result")
+        self._write()
         self._refuse_foreign()
         self._finish()
         rewrite(self.path, attributes, self._contents({}))

@@ -113,8 +113,10 @@ class StoredContents:
         self.frame_count = times.shape[0]
         if times.id.get_storage_size() < LEAST_SHARE * 8 * self.frame_count:
             raise ValueError(f"it claims {self.frame_count} frames, which it does not hold")
-        for name in map(str, file):
-            dataset = _dataset(file, name)
+        datasets = {name: _dataset(file, name) for name in map(str, file)}
+        # HDF5 searches the whole file for the name of what a reference leads to
+        scales = {_address(each): name for name, each in datasets.items() if each.is_scale}
+        for name, dataset in datasets.items():
             if name == "time":
                 continue
             name.encode()
@@ -124,8 +126,9 @@ class StoredContents:
             if dataset.is_scale:
                 self.coordinates[name] = tuple(dataset.asstr()[()])
                 continue
-            dims = tuple(dimension[0].name.lstrip("/") for dimension in dataset.dims)
-            if dataset.shape[1:] != tuple(dimension[0].shape[0] for dimension in dataset.dims)[1:]:
+            own = [dimension[0] for dimension in dataset.dims]
+            dims = tuple(scales[_address(each)] for each in own)
+            if dataset.shape[1:] != tuple(each.shape[0] for each in own[1:]):
                 raise ValueError(f"`{name}` has {dataset.shape[1:]} numbers a frame, and other names of them")
             columns = slice(0, int(np.prod(dataset.shape[1:])))
             units, long_name = str(_plain(dataset.attrs["units"])), str(_plain(dataset.attrs["long_name"]))
@@ -167,6 +170,11 @@ def _dataset(file: h5py.File, name: str) -> Any:
     if not isinstance(dataset, h5py.Dataset) or dataset.is_virtual or dataset.external:
         raise ValueError(f"`{name}` is no variable, or one of another file")
     return dataset
+
+
+def _address(dataset: Any) -> int:
+    """Where it stands in its file."""
+    return int(h5py.h5o.get_info(dataset.id).addr)
 
 
 @contextmanager

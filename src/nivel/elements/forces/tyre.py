@@ -82,7 +82,7 @@ ROLLED, ROLL_TIME = 0.01, 0.05  # [m] of rolling that stretch the rolling resist
 LEAST_GRIP = 1e-3
 MOST_LOAD, LEAST_LOAD = 3.0, 1e-6  # of the nominal load: curves end there, and a tyre with less has left the ground
 SKEW = 0.2  # sine of the angle between axle and joint beyond which one of them is taken for a slip
-TOUCHES = 4  # times that the place of the patch on heights is sought
+TOUCHES = 3  # times that the place of the patch on heights is sought
 NEAR = 0.1  # of the radius, from the middle of the patch to where heights are taken before and behind it
 FLAT = 0.1  # cosine of camber of a wheel that lies rather than rolls
 # A guess by the nominal load P: the passenger-car tyre of Rill 2012, 3.5, at P and 2 P; forces by P, its carcass by the vertical stiffness
@@ -505,31 +505,34 @@ def rolling(n, most, roll, v_t, z):
 def plane_under(heights, A, r, centre, y, radius, width):
     """(normal, point) of the plane in which a tyre stands on ground with heights, whose marker has the axes A and the point r.
 
-    Under the patch, where the disc comes to the ground, heights and slopes are means of four places: NEAR of the radius before and behind,
-    and half of the width on either side. The plane is the tangent of the mean height there and turns about the patch, so that it keeps
-    energy.
+    Heights and slopes are means of four places about the patch: NEAR of the radius before and behind, and half of the width on either side.
+    The plane is the tangent of this mean ground where the disc comes to it, so that it keeps energy as it turns about the patch: by
+    Newton's method over crests, and in valleys, where a disc that fits hardly touches at two places, by repeated steps.
     """
     c0, c1, c2 = seen(A, minus(centre, r))
     y0, y1, y2 = seen(A, y)
-    px, py = c0, c1
-    for _ in range(TOUCHES):
-        h, gx, gy, _, _, _ = surface(heights, px, py)
-        # of the normal (-g, 1)/size: what it has along the axle, and across that
+    level = root(y0 * y0 + y1 * y1)
+    e0, e1 = (y0 / level, y1 / level) if real(level) > 0.0 else (y0, y1)
+    px, py, touches = c0, c1, 0
+    while True:
+        h, gx, gy, bend = 0.0 * px, 0.0 * px, 0.0 * px, 0.0 * px
+        for k in range(4):
+            before = NEAR * radius * (1.0 - k) if k in (0, 2) else 0.0
+            aside = 0.5 * width * (2.0 - k) if k in (1, 3) else 0.0
+            own = surface(heights, px + before * e1 + aside * e0, py - before * e0 + aside * e1)
+            h, gx, gy = h + 0.25 * own[0], gx + 0.25 * own[1], gy + 0.25 * own[2]
+            bend += 0.25 * (own[3] * e1 * e1 - 2.0 * own[4] * e1 * e0 + own[5] * e0 * e0)
         size = np.sqrt(1.0 + gx * gx + gy * gy)
+        if touches == TOUCHES:
+            break
+        # of the normal (-g, 1)/size: what it has along the axle, and across that
         n0, n1, n2 = -gx / size, -gy / size, 1.0 / size
         tilt = n0 * y0 + n1 * y1 + n2 * y2
         arm = (n0 * (c0 - px) + n1 * (c1 - py) + n2 * (c2 - h)) / maximum(1.0 - tilt * tilt, FLAT * FLAT + 0.0 * tilt)
-        px, py = c0 - arm * (n0 - tilt * y0), c1 - arm * (n1 - tilt * y1)
-    level = root(y0 * y0 + y1 * y1)
-    if real(level) > 0.0:
-        y0, y1 = y0 / level, y1 / level
-    h, gx, gy = 0.0 * px, 0.0 * px, 0.0 * px
-    for k in range(4):
-        before = NEAR * radius * (1.0 - k) if k in (0, 2) else 0.0
-        aside = 0.5 * width * (2.0 - k) if k in (1, 3) else 0.0
-        own = surface(heights, px + before * y1 + aside * y0, py - before * y0 + aside * y1)
-        h, gx, gy = h + 0.25 * own[0], gx + 0.25 * own[1], gy + 0.25 * own[2]
-    size = np.sqrt(1.0 + gx * gx + gy * gy)
+        d0, d1 = c0 - arm * (n0 - tilt * y0) - px, c1 - arm * (n1 - tilt * y1) - py
+        crest = maximum(1.0 - arm * bend / (size * size * size), 1.0 + 0.0 * arm)
+        less = (d0 * e1 - d1 * e0) * (1.0 / crest - 1.0)
+        px, py, touches = px + d0 + less * e1, py + d1 - less * e0, touches + 1
     return turned(A, (-gx / size, -gy / size, 1.0 / size)), plus(r, turned(A, (px, py, h)))
 
 

@@ -328,7 +328,6 @@ def load_study(
     study, faults = study_and_faults(read_text(file), file, overrides=dict(overrides or {}), allow_code=allow_code)
     if study is None:
         raise ModelError(faults)
-    resolved = None
     with gathered(faults):
         resolved = nivel.analysis.sweep.resolution.resolve(study, load(study.machine_file, allow_code=allow_code))
     refuse(faults)

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from nivel.analysis.plan.settings import with_usual_frames
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, retold
 from nivel.lazy import dataclass, field
 from nivel.machine.core.vectors import Array
 from nivel.machine.study.any_quantity import another_measure
@@ -72,11 +72,9 @@ def outputs_of(found: Found, outputs: Mapping[str, Output]) -> dict[str, Number]
     numbers: dict[str, Number] = {}
     for name, output in outputs.items():
         try:
-            numbers[name] = number = _number(found, output)
-            _check_limits(output, number.units)
-        except ModelError as error:
-            places = [(f"outputs.{name}.{each.path or 'of'}", each.message) for each in error.faults]
-            raise ModelError([Fault.at(*each) for each in places]) from None
+            with retold(lambda each, name=name: Fault.at(f"outputs.{name}.{each.path or 'of'}", each.message)):
+                numbers[name] = number = _number(found, output)
+                _check_limits(output, number.units)
         except OutputFailedError as error:
             raise OutputFailedError(f"output {name}: {error}") from None
     return numbers

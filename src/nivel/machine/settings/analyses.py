@@ -8,7 +8,7 @@ from typing import Annotated, Any, Final
 
 from pydantic import BeforeValidator
 
-from nivel.errors import Fault, ModelError, refuse
+from nivel.errors import Fault, gathered, refuse
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.record import Record
 from nivel.machine.given import Field, Given, Maybe, OneNumber
@@ -194,10 +194,8 @@ def kinematics_settings(machine: MachineRecord, given: Mapping[str, Any]) -> Kin
     if kind == "length" and ends[-1:] != ["end"]:
         found["end"] = f"`{asked['drive']}` is a length: say to which one it is driven"
     faults = [Fault.at(f"kinematics.{name}", message) for name, message in found.items()]
-    try:
+    with gathered(faults):
         settings = settings_of(KinematicsSettings, "kinematics", asked)
-    except ModelError as error:
-        raise ModelError([*faults, *error.faults]) from None
     refuse(faults)
     return settings
 

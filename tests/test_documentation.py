@@ -177,7 +177,14 @@ def test_every_key_of_a_force_has_its_row_with_its_default(force):
             assert float(cells[key][2]) == field.default
         elif field.is_required() and key not in ("name", "type"):
             assert cells[key][2].startswith("must be given")
-    titles = ("Forces", "Motors, servos and electric drives", "Drive trains", "Stops, friction and contact", "Tyres")
+    titles = (
+        "Forces",
+        "Motors, servos and electric drives",
+        "Drive trains",
+        "Stops, friction and contact",
+        "Tyres",
+        "Soil",
+    )
     assert set(force.outputs) <= {word for title in titles for word in words(section(title))}
 
 

@@ -109,6 +109,7 @@ import nivel.elements.contacts.heap
 import nivel.elements.contacts.height_field
 import nivel.elements.contacts.height_way
 import nivel.elements.contacts.heights
+import nivel.elements.contacts.on_soil
 import nivel.elements.contacts.shapes
 import nivel.elements.forces
 import nivel.elements.forces.ropes

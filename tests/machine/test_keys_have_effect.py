@@ -9,6 +9,7 @@ from everything import EVERYTHING
 
 from lanes import parts
 from nivel import MachineRecord
+from nivel.elements.contacts.soil import SoilUnit
 from nivel.errors import ModelError
 from nivel.judge.before.unusual import remarks
 from nivel.system.beam_nodes import with_nodes
@@ -61,7 +62,18 @@ def leaves(value):
 def arrays(machine):
     """Everything of the system of a machine."""
     system = build(with_nodes(machine), Equations(6, normalisation=False))
-    return [*leaves(tuple(system.record)), system.start, *system.rows, repr(system.layout), repr(system.states)]
+    arguments, soils = system.record.functions.arguments, [each for each in system.units if isinstance(each, SoilUnit)]
+    for each in soils:  # its cells count, and not where they are
+        arguments[arguments == float(each.handle.address)] = 0.0
+    of_soils = [array for each in soils for array in each.record]
+    return [
+        *leaves(tuple(system.record)),
+        *of_soils,
+        system.start,
+        *system.rows,
+        repr(system.layout),
+        repr(system.states),
+    ]
 
 
 def told(machine):

@@ -18,10 +18,11 @@ from nivel.analysis.run.fitting import fitted
 from nivel.analysis.run.prepared_state import prepare
 from nivel.c_library.image import LINE, WORD, Image, UnknownAddressError
 from nivel.elements.control.units import UnitBlock
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import ALL_STEPS, END, EVERY
 from nivel.integrate.loop.sink import Header
+from nivel.judge.before.refusals import ON_SOIL
 from nivel.judge.during.stop import Status
 from nivel.kernels.core.block import Handle
 from nivel.kernels.record.function import CONSTANT
@@ -203,6 +204,7 @@ def export(plan: Plan, what: str, select: Sequence[str] = ()) -> Exported:
         f"{each.what} of the block `{each.name}`" for each in plan.machine.control if isinstance(each, UnitBlock)
     ]:
         raise refusal(f"{what} cannot have what others have compiled: {named[0]}")
+    refuse(ON_SOIL.faults(plan.machine))  # its cells are no part of the image
     plan, prepared = fitted(plan, prepare(plan.methods))
     loop = _endless(start_loop(prepared, plan.settings))
     entries = tuple(dict.fromkeys(run_entries(plan)))

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.elements.contacts.height_field import MOST
-from nivel.files.outline import SETS, section_of
+from nivel.files.outline import NAMING, SETS, section_of
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree
 from nivel.machine.core.record import unknown_word
@@ -28,8 +28,6 @@ from nivel.machine.units.quantity import shown
 HEIGHTS: Final = "heights"
 PNG: Final = b"\x89PNG\r\n\x1a\n"
 CHANNELS: Final = {0: 1, 2: 3, 4: 2, 6: 4}  # by the type of colour
-# keys of `ground` that contacts do not have
-OF_TYRES: Final = ("grip",)
 
 
 def spread_sets(tree: Tree) -> None:
@@ -39,7 +37,7 @@ def spread_sets(tree: Tree) -> None:
         tree.data.pop(section, None)
         known: set[str] = set()
         for name, force in section_of(tree, "forces").items():
-            if not isinstance(force, dict) or key not in force or force.get("type") not in ("tyre", "contact"):
+            if not isinstance(force, dict) or key not in force or force.get("type") not in NAMING:
                 continue
             named = force.pop(key)
             if not isinstance(named, str) or named not in sets:
@@ -57,7 +55,7 @@ def _spread(tree: Tree, keys: dict[str, Any], place: tuple[str, str], name: str,
     """Put the keys of the set at `place` into the force `name`, with where they stand. Returns their paths there."""
     spread: set[Path] = set()
     for word, value in keys.items():
-        if word in force or (word in OF_TYRES and force.get("type") != "tyre"):
+        if word in force or word in NAMING[force["type"]]:
             continue
         force[word] = deepcopy(value)
         tree.copy_places((*place, word), ("forces", name, word))

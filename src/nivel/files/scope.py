@@ -21,7 +21,7 @@ from nivel.files.deciding import deciding
 from nivel.files.include import include
 from nivel.files.joint_parts import add_joint_parts
 from nivel.files.mesh_file import read_meshes
-from nivel.files.outline import SETS, VALUES, Known, as_part, check_sections, check_start, section_of
+from nivel.files.outline import NAMING, SETS, VALUES, Known, as_part, check_sections, check_start, section_of
 from nivel.files.overrides import in_order, override, prefix_of, with_units
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
@@ -136,7 +136,7 @@ def _has_contacts(tree: Tree) -> bool:
     shapes = [each.get("shape") for each in (*bodies, *markers) if isinstance(each, dict)]
     return (
         not tree.data.keys().isdisjoint(SETS)
-        or any(isinstance(each, dict) and each.get("type") in ("contact", "contacts", "tyre") for each in forces)
+        or any(isinstance(each, dict) and each.get("type") in ("contacts", *NAMING) for each in forces)
         or any(isinstance(each, dict) and "convex_parts" in each for each in shapes)
     )
 

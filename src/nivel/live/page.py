@@ -14,6 +14,7 @@ from nivel.analysis.preparation.attributes import run_attributes
 from nivel.c_library.exported import FRAMES_KEPT, failures_of, refusal
 from nivel.c_library.image import WORD, Image, UnknownAddressError
 from nivel.c_library.parameters import Followed, memory_of
+from nivel.errors import refuse
 from nivel.files.target import write_file
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.paced import SHOWN, TICKS, Live, drive
@@ -22,6 +23,7 @@ from nivel.integrate.loop.sink import Header
 from nivel.judge.after.checks.circuits import INTEGRALS, START
 from nivel.judge.after.checks.energy import BALANCE
 from nivel.judge.after.checks.joints import OPENING, RATES
+from nivel.judge.before.refusals import ON_SOIL
 from nivel.kernels.core import status
 from nivel.kernels.core.block import Handle
 from nivel.kernels.output.observe import observe
@@ -75,6 +77,7 @@ def write_live_page(plan: Plan, pace: Pace, path: Path, followed: Followed | Non
     Raises ModelError where a Python law or foreign code takes part, or the machine cannot be assembled.
     """
     plan = plan if followed is None else followed.machine.plan
+    refuse(ON_SOIL.faults(plan.machine))  # its cells are no part of the image
     run = _short(prepared_run(plan, pace))
     layout, inputs = run.prepared.motion.system.layout, plan.machine.inputs[:-HAND_INPUTS]
     sizes = Sizes(*run.sizes[:2], TAPE_ROWS, FRAME_ROWS)

@@ -151,8 +151,9 @@ class LiveRun:
     @property
     def records(self) -> list[Any]:
         """All that the kernels remember."""
-        twin = self.prepared.motion.twin
-        return [self.prepared.motion.system.record, self.run, *([twin.record] if twin is not None else [])]
+        twin, system = self.prepared.motion.twin, self.prepared.motion.system
+        records = [system.record, self.run, *(each.record for each in system.units)]
+        return records if twin is None else [*records, twin.record]
 
 
 def prepared_run(plan: Plan, pace: Pace) -> LiveRun:

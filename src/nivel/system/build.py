@@ -214,7 +214,7 @@ def _watched(builder: SystemBuilder) -> record.Watched:
         held=np.zeros(len(switches)),
         value=np.zeros(count),
         rate=np.zeros(count),
-        followed=np.zeros(3, dtype=np.uint32),
+        followed=np.zeros(5, dtype=np.uint32),
     )
 
 

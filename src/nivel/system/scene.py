@@ -152,19 +152,17 @@ def _grounds(machine: MachineRecord) -> Iterator[tuple[str, dict[str, Any]]]:
     contacts = [each for each in machine.forces if getattr(each, "heights", None) is not None]
     if not contacts:
         return
-    drawn: set[tuple[str, str]] = set()
+    drawn: list[tuple[object, object]] = []
     builder = SystemBuilder(machine)
     names = [*(body.name for body in machine.bodies), "ground"]
     for force in contacts:
         plane, heights = getattr(force, "plane", None), getattr(force, "heights", None)
-        if heights is not None and plane is not None:
+        if heights is not None and plane is not None and (plane, heights) not in drawn:
+            drawn.append((plane, heights))
             m, markers = builder.end(plane), builder.markers
             vertices, triangles = nivel.elements.contacts.height_field.ground_surface(heights)
             surface = surface_text(vertices @ markers.frame[m].T + markers.position[m], triangles)
-            name = names[markers.body[m]]
-            if (name, surface) not in drawn:
-                drawn.add((name, surface))
-                yield name, {"type": "mesh", "centre": [0.0, 0.0, 0.0], "surface": surface}
+            yield names[markers.body[m]], {"type": "mesh", "centre": [0.0, 0.0, 0.0], "surface": surface}
 
 
 def _gyration(body: Body, system: System, k: int) -> float:

@@ -37,6 +37,7 @@ def empty(record_class: type[AnyRecord]) -> AnyRecord:
 
 
 OVER_HEIGHTS: Final = "nivel.elements.contacts.heights:apply_over_heights"
+ON_SOIL: Final = "nivel.elements.contacts.on_soil:apply"
 
 
 def rows_of(elements: Elements, family: str) -> tuple[int, int]:

@@ -26,7 +26,7 @@ from nivel.analysis.run.dynamics import Loop, march, start_loop
 from nivel.analysis.run.prepared_state import prepare
 from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.integrate.loop.sink import Header
-from nivel.judge.before.refusals import sampled_times
+from nivel.judge.before.refusals import ON_SOIL, sampled_times
 from nivel.lazy import replace
 from nivel.model import Model
 from nivel.results.curve import TOLD
@@ -229,7 +229,7 @@ def refuse_without_slopes(plan: Plan) -> None:
     for kind, what in FOREIGN.items():
         if any(block.type == kind for block in plan.machine.control):
             faults.append(Fault.at("control", f"{what} give no slopes, so a machine with one has no gradients"))
-    refuse(faults)
+    refuse([*faults, *ON_SOIL.faults(plan.machine)])
 
 
 def _refuse_events(outputs: Sequence[Output], prepared: Prepared) -> None:

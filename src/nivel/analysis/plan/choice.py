@@ -238,7 +238,7 @@ FOR_STIFF, USUAL_TOLERANCE = "radau", 1e-8
 EXPLICIT = f"no method is named; where it is stiff, {FOR_STIFF} goes on"
 STICKING = "friction that sticks is stiff"
 STIFF_CIRCUITS = "circuits are stiff, and every step of it costs the same"
-TYRES = "tyres are soft beside a step, and slide and stand without a switch"
+TYRES = "tyres and soil are soft beside a step, and slide and stand without a switch"
 STIFF_BEAMS = "beams have rates beyond all steps"
 EXPLICIT_BEAMS = "other settings need an explicit method"
 FIXED = "other settings depend on a fixed step"
@@ -257,7 +257,7 @@ def integrators_for(machine: MachineRecord) -> tuple[tuple[str, str], ...]:
         impacts = any(isinstance(force, Contact | Contacts | Stop) for force in machine.forces)
         names = (FOR_STIFF, "bdf", "generalised-alpha") if impacts else ("generalised-alpha", FOR_STIFF, "bdf")
         return (*((name, STIFF_BEAMS) for name in names), ("dopri5", EXPLICIT_BEAMS), ("rk4", FIXED))
-    if any(force.type == "tyre" for force in machine.forces):
+    if any(force.type in ("tyre", "soil-wheel") for force in machine.forces):
         return (("rk4", TYRES),)
     if any(force.sticks for force in machine.forces):
         return ((FOR_STIFF, STICKING), ("dopri5", STICKING), ("rk4", FIXED))

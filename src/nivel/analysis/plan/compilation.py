@@ -38,7 +38,7 @@ LOADS = ("force", "torque")
 DRIVES = ("dc-motor", "servo-motor")
 MEASURE, FRICTION = "nivel.kernels.bodies.measure", "nivel.kernels.elements.friction"
 SENSOR, WATCH = "nivel.kernels.signals.sensor", "nivel.kernels.signals.watch"
-SAMPLING = "nivel.kernels.signals.functions:sample"
+SAMPLING, ON_SOIL = "nivel.kernels.signals.functions:sample", "nivel.elements.contacts.on_soil:sample"
 HEIGHT_WAY = "nivel.elements.contacts.height_way"
 VALUES, BOUNDS = "nivel.kernels.record.program:find_values", "nivel.kernels.record.program_bounds"
 GIVEN_FRICTION, RAIL = "nivel.kernels.residual.friction_residual", "nivel.kernels.bodies.rail"
@@ -60,7 +60,7 @@ COMPLETIONS = tuple(
 )
 
 # all modules that some machines, runs or trees need
-OF_MACHINES = (MEASURE, FRICTION, RAIL, POINTS, SENSOR, WATCH, HEIGHT_WAY, SAMPLING, OF_BEAMS, GIVEN_FRICTION)
+OF_MACHINES = (MEASURE, FRICTION, RAIL, POINTS, SENSOR, WATCH, HEIGHT_WAY, SAMPLING, ON_SOIL, OF_BEAMS, GIVEN_FRICTION)
 OF_RUNS = (LOOP, VALUES, BOUNDS, FOLLOWING, PACED, REPEATED, STATICS, TANGENT_ENTRIES, OUTPUT, SHARED_LOADS)
 OF_TREES = (OF_FRAMES, OF_MODES, OF_SLIDERS, PASSING, IMPLICIT_ACCELERATIONS, *COMPLETIONS)
 
@@ -308,6 +308,7 @@ def _rare_modules(machine: MachineRecord) -> list[str]:
         SENSOR: bool(machine.sensors),
         SAMPLING: any(state.update is not None for state in machine.states)
         or bool(machine.control or types & {*DRIVES}),
+        ON_SOIL: "soil-wheel" in types,
         OF_BEAMS: any(nivel.elements.beams.models.family_of(beam).code.name == ELASTIC for beam in machine.beams),
     }
     return [module for module, asked in needed.items() if asked]

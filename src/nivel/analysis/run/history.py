@@ -22,7 +22,7 @@ from nivel.judge.before.refusals import WHOLE
 from nivel.judge.during.lockup import can_be_asked
 from nivel.kernels.elements import friction as columns
 from nivel.kernels.output.observe import observe
-from nivel.kernels.record.record import WATCH, Sampled
+from nivel.kernels.record.record import SAMPLE, WATCH, Sampled
 from nivel.kernels.signals.functions import sample
 from nivel.kernels.signals.watch import watch
 from nivel.kernels.solve.saddle import CONTRADICTORY, MOST_UNSETTLED
@@ -31,7 +31,7 @@ from nivel.motion.direct import VISIBLE
 from nivel.system.elimination.partition import forget
 from nivel.system.signals.control import ONCE, ratio_of
 from nivel.system.system import Array, System
-from nivel.system.tables import OVER_HEIGHTS, rows_of
+from nivel.system.tables import ON_SOIL, OVER_HEIGHTS, rows_of
 
 BUFFER_BYTES = 1_000_000
 EVENT_ROWS = 1000
@@ -263,9 +263,12 @@ def _watch(system: System, *, chosen: bool) -> int:
     count = len(watched.event) + (len(watched.surface) + len(watched.switch) if chosen else 0)
     if count:
         system.record.hooks.address[WATCH] = watch.address
+    watched.followed[3:] = rows_of(system.record.elements, ON_SOIL)
+    if watched.followed[4]:
+        system.record.hooks.address[SAMPLE] = nivel.elements.contacts.on_soil.sample.address
     first, last = rows_of(system.record.elements, OVER_HEIGHTS)
     if last > first:
-        watched.followed[1:] = first, last
+        watched.followed[1:3] = first, last
         system.record.hooks.address[WATCH] = nivel.elements.contacts.height_way.watch.address
         heights = nivel.elements.contacts.heights
         system.record.elements.number[first:last, [heights.MISSED, heights.SEEN]] = 0.0

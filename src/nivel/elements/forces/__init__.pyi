@@ -18,6 +18,7 @@ else:
 
 from nivel.elements.contacts.contact import Contact as Contact
 from nivel.elements.contacts.contact import Contacts as Contacts
+from nivel.elements.contacts.soil import SoilWheel as SoilWheel
 from nivel.elements.forces.actuators import Motor as Motor
 from nivel.elements.forces.actuators import Servo as Servo
 from nivel.elements.forces.actuators import Stop as Stop

@@ -15,7 +15,7 @@ from nivel.elements.control.units import UnitBlock
 from nivel.elements.forces.drive_lines import TransmissionLoss, holds_by_capacity
 from nivel.elements.forces.friction import Friction
 from nivel.errors import Fault
-from nivel.judge.before.refusals import Refusal, faults_of, rolling
+from nivel.judge.before.refusals import ON_SOIL, Refusal, faults_of, rolling
 from nivel.machine.control.order import PartOf, parts_of
 from nivel.machine.core.element import ForceElement
 from nivel.machine.laws.symbols import find_in, follows_control, is_output
@@ -42,10 +42,12 @@ OF_INVERSE = (
         "the frame of a flexible body does not determine its motion: make the body rigid",
     ),
     Refusal("beams", "", ALL, "drivers do not determine the motion of a beam: leave the beam out"),
+    ON_SOIL,
 )
 # Friction that holds at rest: which of the many equilibria it holds depends on how the machine came there.
 MANY = "so there are many equilibria, and the actual one depends on the previous motion"
 OF_STATICS = (
+    ON_SOIL,
     Refusal(
         "forces",
         "model",
@@ -67,6 +69,7 @@ OF_STATICS = (
 )
 # States and blocks whose effect is no smooth function of the state.
 NOT_SMOOTH = (
+    ON_SOIL,
     Refusal(
         "forces",
         "friction",

@@ -57,6 +57,11 @@ class Refusal:
             yield Fault.at(f"{self.section}.{element.name}{self.key and f'.{self.key}'}", text)
 
 
+# of what neither knows how soil was changed before, nor changes it
+SOIL = "what soil bears depends on how it was pressed before, which runs know: `nivel run`, `nivel live` or `machine.start()`"
+ON_SOIL = Refusal("forces", "", lambda force: force.type == "soil-wheel", SOIL)
+
+
 def faults_of(machine: MachineRecord, refusals: Iterable[Refusal]) -> Iterator[Fault]:
     """Everything in a machine that is refused."""
     return (fault for refusal in refusals for fault in refusal.faults(machine))
@@ -95,6 +100,7 @@ def deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array) -> It
 def sampled_times(machine: MachineRecord) -> list[tuple[str, float]]:
     """Periods, offsets and latencies of sampled states and blocks [s] that are not zero, with where they stand."""
     times = [(f"states.{state.name}.every", state.every or 0.0) for state in machine.states]
+    times += [(f"forces.{each.name}.soil.period", each.soil.period) for each in filter(ON_SOIL.applies, machine.forces)]
     times += [
         (f"control.{block.name}.{key}", getattr(block, key) or 0.0)
         for block in machine.control

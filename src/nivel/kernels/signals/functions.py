@@ -7,6 +7,7 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
+from nivel.native.function import stage
 
 # columns of `columns` of inputs and signals; of states, SAMPLED: whether the function is the value after a sample
 OUTPUT, FUNCTION = 0, 1
@@ -50,8 +51,8 @@ def compute(machine, number, t):
     return OK
 
 
-@family
-def sample(machine, job, t):
+@stage
+def fill_samples(machine, t):
     """Fill `sampled.value` where `sampled.due`, from the state last evaluated and the new values of what is sampled at once before.
 
     Signals are computed anew. `elements.state` has the new values of what is sampled at once.
@@ -66,3 +67,9 @@ def sample(machine, job, t):
             if sampled.at_once[k] == 1:
                 state[sampled.state[k]] = sampled.value[k]
     return OK
+
+
+@family
+def sample(machine, job, t):
+    """The hook SAMPLE: see `fill_samples`."""
+    return fill_samples(machine, t)

@@ -81,7 +81,7 @@ def schur_complement(machine, _y, _out, repeats):
 @part
 def efforts(machine, _y, _out, repeats):
     for _ in range(repeats):
-        whiten_efforts(machine)
+        whiten_efforts(machine, _y)
 
 
 @part

@@ -108,7 +108,7 @@ NAMED = [
              "second[i] -= 1.9 * first[i]\n    return_to", verification("ros2")),
     Spoilt("generalised-alpha: order of positions", "integrate/newmark/alpha_step.py", "(0.5 - c[BETA]) * a", "(0.55 - c[BETA]) * a",
              verification("alpha")),
-    Spoilt("geometric stabilisation: the factor", "integrate/loop/energy.py", "np.sqrt(1.0 + missing / kinetic)",
+    Spoilt("geometric stabilisation: the factor", "integrate/loop/loop.py", "np.sqrt(1.0 + missing / kinetic)",
              "1.0 + missing / kinetic",
              verification("geometric")),
     Spoilt("events: sides are kept", "integrate/loop/events.py", "now != 0.0 else -values[of_run.SIDE, k]",

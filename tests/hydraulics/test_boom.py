@@ -149,7 +149,7 @@ def test_energies_of_the_circuit_and_its_mass_balance():
 
 
 def test_fast_steps_keep_the_mass_to_round_off():
-    """Those of `nivel.integrate.rosenbrock.circuit_euler`: tanks give by the rule by which volumes take."""
+    """Those of `nivel.integrate.rosenbrock.extrapolated_euler`: tanks give by the rule by which volumes take."""
     result = nivel.load(FILE).simulate(integrator="extrapolated-euler", duration=0.3)
     gave = result.array("state.hydraulics.taken_in")
     assert np.ptp(gave) > 1e-3

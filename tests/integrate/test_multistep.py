@@ -9,8 +9,7 @@ from nivel.analysis.plan.settings import complete
 from nivel.analysis.run.history import start_history
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.run import RESTART, STEP
-from nivel.integrate.loop.workspace import SHARE
-from nivel.integrate.multistep.multistep import remember
+from nivel.integrate.multistep.multistep import SHARE, remember
 from nivel.kernels.core.block import Handle
 from preparing import prepare
 from references import stick_slip

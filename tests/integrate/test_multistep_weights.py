@@ -5,9 +5,16 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from nivel.integrate.multistep.adams import BASHFORTH, MOULTON
-from nivel.integrate.multistep.gear import BACKWARD, EXTRAPOLATED, RATE_WEIGHT
-from nivel.integrate.multistep.newton import GAMMA, MATRIX, NODES
+from nivel.integrate.multistep.multistep import (
+    BACKWARD,
+    BASHFORTH,
+    EXTRAPOLATED,
+    GAMMA,
+    MATRIX,
+    MOULTON,
+    NODES,
+    RATE_WEIGHT,
+)
 
 
 def product(p, q):

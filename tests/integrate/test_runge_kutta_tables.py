@@ -7,7 +7,7 @@ from itertools import combinations_with_replacement
 import numpy as np
 import pytest
 
-from nivel.integrate.explicit import dop853_coefficients as eight
+from nivel.integrate.explicit import dop853 as eight
 from nivel.integrate.explicit import dormand_prince as five
 
 

@@ -82,10 +82,10 @@ OF_SLOPES = [f"{name}.settle_slopes" for name in ("residual_newton", "friction",
 OF_SLOPES += ["lanes.steepest", "direct.are_steep", "independent.is_steep", "crossing.root", "shifted_along.add_slopes"]
 OF_SLOPES += ["samples.fit_part"]
 OF_SLOPES += ["residual_newton.steepness_of_change", "residual_newton.end_correction"]
-OF_SLOPES += ["radau_stages.settle_slopes", "radau_stages.settle_coupled", "radau_stages.change_slopes_of_pair"]
+OF_SLOPES += ["radau.settle_slopes", "radau.settle_coupled", "radau.change_slopes_of_pair"]
 OF_SLOPES += [
-    f"shifted_slopes.{name}"
-    for name in ("keep_base", "bring_back", "move_along", "find_missed", "load_missed", "settle_solution")
+    f"shifted_along.{name}"
+    for name in ("keep_base", "bring_back", "move_far_along", "find_missed", "load_missed", "settle_solution")
 ]
 OF_SLOPES += [
     f"correction_slopes.{name}"

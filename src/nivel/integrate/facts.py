@@ -79,7 +79,7 @@ class IntegratorFacts:
 
     @property
     def optional_control(self) -> bool:
-        """Whether it controls its error on request, and tells slow errors from vibrations (`nivel.integrate.newmark.alpha_error`)."""
+        """Whether it controls its error on request, and tells slow errors from vibrations (`nivel.integrate.newmark.alpha_step`)."""
         return self.name in EITHER
 
     @property

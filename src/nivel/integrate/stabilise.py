@@ -53,7 +53,7 @@ STABILISATIONS: dict[str, Stabilisation] = {
     "baumgarte": Stabilisation(baumgarte),
     "direct": Stabilisation(_correct, corrects=True),
     # Geometric elimination with the energy constraint (report 44, eqs. 121-136): positions and velocities are put back onto the constraints
-    # as by direct correction, then the velocities are scaled to the energy that the machine must have (`nivel.integrate.loop.energy`).
+    # as by direct correction, then the velocities are scaled to the energy that the machine must have (`nivel.integrate.loop.loop`).
     # Eq. 136 as printed leaves Ċ free and diverges; in this order every level holds.
     "geometric": Stabilisation(_correct, corrects=True, conserves=True),
 }

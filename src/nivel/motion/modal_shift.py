@@ -15,7 +15,7 @@ import numpy as np
 from nivel.kernels.bodies.floating_frame import modes_of
 from nivel.kernels.record.record import MODAL, record_at
 from nivel.kernels.tree.flexible_whitening import accelerate_flexible, hand_efforts_inwards
-from nivel.motion.compliance import hold_rows
+from nivel.motion.circuit_shift import hold_rows
 from nivel.motion.flexible_tree import factorise_flexible
 from nivel.motion.tree_motion import write_positions
 from nivel.native.function import part, stage

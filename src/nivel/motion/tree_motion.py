@@ -9,10 +9,9 @@ from nivel.kernels.algebra.rotation import normalise_parameters, rates_of_parame
 from nivel.kernels.bodies.constraint import constraint_rows
 from nivel.kernels.bodies.marker import move_marker, place_point, turn_axes
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import finish_forces, measure_active
+from nivel.kernels.record.hook import measure_active
 from nivel.kernels.record.record import record_at
-from nivel.kernels.solve.saddle import multipliers
-from nivel.motion.direct import VELOCITIES, correct_levels
+from nivel.motion.direct import VELOCITIES, correct_levels, find_accelerations
 from nivel.native.function import shared, stage
 
 
@@ -78,16 +77,9 @@ def evaluate_tree(machine, t, y, ydot, read, load, factorise, whiten, accelerate
     tree = record_at(machine).tree
     status = read(machine, t, y)
     if status == OK:
-        status = load(machine, t, y)
-    if status == OK:
-        status = factorise(machine, y)
+        status = find_accelerations(machine, t, y, ydot, WIDTH, load, factorise, whiten)
     if status != OK:
         return status
-    whiten(machine)
-    status = multipliers(machine, WIDTH)
-    if status != OK:
-        return status
-    status = finish_forces(machine, t, ydot)
     positions, columns = np.int64(tree.positions[0]), tree.column.shape[0]
     for k in range(positions):
         tree.state[k] = y[k]

@@ -42,7 +42,7 @@ class ResidualOptions:
     with room for systems of shifted matrices, see `nivel.kernels.residual.shifted_matrix`. balance : with room to find accelerations, see
     `nivel.kernels.residual.balance`. along : it asks for derivatives along directions, so that none may be found by hand. free : whether
     nothing joins the machine to the ground, for a residual over a whole step. filtered : with room for
-    `nivel.integrate.newmark.alpha_error`. accelerations : it solves for them, so that in independent coordinates all that depends on these
+    `nivel.integrate.newmark.alpha_step`. accelerations : it solves for them, so that in independent coordinates all that depends on these
     has to be found. compliance : 1/α of penalty methods, or that with which all rows of a redundant machine are met in least squares.
     """
 

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.integrate.explicit.embedded import evaluate_stages, fill_cubic, sum_stages, take_step
+from nivel.integrate.explicit.embedded import evaluate_stages, take_step
 from nivel.integrate.facts import IntegratorFacts
-from nivel.integrate.loop.dense import wanted
-from nivel.integrate.loop.run import DENSE, POWERS, STEP_SIGNATURE, run_at
+from nivel.integrate.loop.dense import cubic, wanted
+from nivel.integrate.loop.run import DENSE, POWERS, STEP_SIGNATURE, run_at, sum_rows
 from nivel.integrate.loop.step_control import EXACT, size
 from nivel.kernels.core.status import OK
 from nivel.native.entry import entry
@@ -68,14 +68,14 @@ def _attempt(evaluate, machine, history, h):
     status = evaluate_stages(evaluate, machine, history, h, A, C, 1, STAGES)
     if status != OK:
         return status, 0.0
-    sum_stages(run, h, E, STAGES, run.scratch)
+    sum_rows(run.stages, h, E, STAGES, run.scratch)
     return OK, size(run, run.scratch)
 
 
 @leaf
 def _fill_dense(run, h):
-    fill_cubic(run, h, STAGES - 1)
-    sum_stages(run, h, D, STAGES, run.dense[3])
+    cubic(run, h, run.stages[0], run.stages[STAGES - 1])
+    sum_rows(run.stages, h, D, STAGES, run.dense[3])
     run.counter[DENSE], run.counter[POWERS] = 4, 0
 
 
@@ -83,7 +83,7 @@ def _fill_dense(run, h):
 def count_stiff(run, h):
     """Count the step h just accepted as stiff, or as another one."""
     numbers, last, slopes, states = run.numbers, STAGES - 1, 0.0, 0.0
-    sum_stages(run, h, LAST_TWO, last, run.scratch)
+    sum_rows(run.stages, h, LAST_TWO, last, run.scratch)
     # nothing depends on the energies at the end of y
     for i in range(run.y.shape[0] - 2):
         slopes = max(slopes, np.abs(run.stages[last, i] - run.stages[last - 1, i]) / run.scale[i])

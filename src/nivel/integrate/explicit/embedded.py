@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.integrate.loop.run import EVALUATIONS, RESTART, STEP, TIME, run_at
+from nivel.integrate.loop.run import EVALUATIONS, RESTART, STEP, TIME, add_rows, run_at
 from nivel.integrate.loop.step_control import (
     allowed,
     enter,
@@ -23,32 +23,13 @@ LAST_ERROR, REPEATED = 0, 1
 
 
 @leaf
-def sum_stages(run, h, weights, count, out):
-    """out = h Σ weights[j] k_j over the first `count` stages."""
-    for i in range(out.shape[0]):
-        out[i] = 0.0
-    add_stages(run, h, weights, count, out)
-
-
-@leaf
-def add_stages(run, h, weights, count, out):
-    """out += h Σ weights[j] k_j over the first `count` stages."""
-    for j in range(count):
-        factor = h * weights[j]
-        if factor != 0.0:
-            k = run.stages[j]
-            for i in range(out.shape[0]):
-                out[i] += factor * k[i]
-
-
-@leaf
 def evaluate_stages(evaluate, machine, history, h, A, c, first, last):
     """Stages k_first … k_last - 1 of the table A, c. The argument of the last one is left in `run.trial`. Returns a status."""
     run = run_at(history)
     for s in range(first, last):
         for i in range(run.y.shape[0]):
             run.trial[i] = run.previous[i]
-        add_stages(run, h, A[s], s, run.trial)
+        add_rows(run.stages, h, A[s], s, run.trial)
         run.counter[EVALUATIONS] += 1
         status = call_evaluate(evaluate, machine, run.clock[TIME] + c[s] * h, run.trial, run.stages[s])
         if status != OK:
@@ -109,14 +90,3 @@ def take_step(evaluate, machine, history, order, share, attempt):
         status, error = attempt(evaluate, machine, history, h)
         if is_accepted(machine, history, h, order, status, error / tolerance):
             return status, h
-
-
-@leaf
-def fill_cubic(run, h, last):
-    """The first three rows of the dense output, those of the cubic through both ends. last : the stage at the new state."""
-    dense = run.dense
-    for i in range(run.y.shape[0]):
-        change = run.y[i] - run.previous[i]
-        dense[0, i] = change
-        dense[1, i] = h * run.stages[0, i] - change
-        dense[2, i] = change - h * run.stages[last, i] - dense[1, i]

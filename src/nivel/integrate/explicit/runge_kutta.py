@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.integrate.facts import IntegratorFacts
-from nivel.integrate.loop.run import EVALUATIONS, ORDER, STEP, STEP_SIGNATURE, TIME, run_at
+from nivel.integrate.loop.run import EVALUATIONS, ORDER, STEP, STEP_SIGNATURE, TIME, add_rows, run_at
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate
 from nivel.native.entry import entry
@@ -45,10 +45,7 @@ def explicit(evaluate, machine, history, order, t, h, row):
         run.counter[EVALUATIONS] += 1
         if status != OK:
             return status
-    for stage in range(order):
-        weight, slope = WEIGHTS[order, stage] * h, run.stages[row + stage]
-        for i in range(n):
-            y[i] += weight * slope[i]
+    add_rows(run.stages[row:], h, WEIGHTS[order], order, y)
     return OK
 
 

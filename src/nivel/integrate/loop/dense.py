@@ -7,7 +7,7 @@ rates at both ends is taken, whose error falls with h⁴.
 
 from __future__ import annotations
 
-from nivel.integrate.loop.run import DENSE, END, INTERVAL, LAST_FRAME, LENGTH, POWERS, REACHED, START
+from nivel.integrate.loop.run import DENSE, END, INTERVAL, LAST_FRAME, POWERS, REACHED, START
 from nivel.native.function import leaf
 
 
@@ -28,9 +28,8 @@ def wanted(run):
 
 
 @leaf
-def cubic(run, rate_before, rate_after):
-    """Fill the rows of the cubic through `previous` and y with these rates."""
-    h = run.clock[LENGTH]
+def cubic(run, h, rate_before, rate_after):
+    """Fill the rows of the cubic through `previous` and y, h later, with these rates."""
     for i in range(run.y.shape[0]):
         change = run.y[i] - run.previous[i]
         run.dense[0, i] = change

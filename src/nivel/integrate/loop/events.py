@@ -1,23 +1,140 @@
 """Events of a step: which values change their sides in it, when, and where the step then ends.
 
-An event is a change of sides from one accepted state to the next, or there and back within the step (`nivel.integrate.loop.passes`), of
-which the first one that is wanted counts. Sides are kept from step to step, never found anew from the state, so an event is found once
+An event is a change of sides from one accepted state to the next, or there and back within the step, of which
+the first one that is wanted counts. Sides are kept from step to step, never found anew from the state, so an event is found once
 whatever changes the state afterwards by round-off (corrections, energies).
 """
 
 from __future__ import annotations
 
+import numpy as np
+
 from nivel.integrate.loop import run as of_run
-from nivel.integrate.loop.crossing import NEVER, end_at, find_crossings, is_mark, read_values, side_of
+from nivel.integrate.loop.crossing import (
+    NEVER,
+    SHARE,
+    end_at,
+    find_crossings,
+    is_mark,
+    is_wanted,
+    locate,
+    locate_between,
+    probe,
+    read_values,
+    side_of,
+    value_at,
+    value_of,
+)
 from nivel.integrate.loop.dense import cubic
-from nivel.integrate.loop.passes import find_passes
 from nivel.integrate.loop.samples import ends_at_switches
 from nivel.integrate.loop.surfaces import find_contacts
-from nivel.integrate.loop.switches import first_switch, has_switches, note_slopes, pass_unseen
+from nivel.integrate.loop.switches import first_switch, has_switches, look_between, note_slopes, pass_unseen
 from nivel.kernels.core.status import BUFFER_FULL, OK
-from nivel.kernels.record.hook import call_evaluate
-from nivel.kernels.record.record import ENDS_RUN, ENDS_STEP, STOP, record_at
+from nivel.kernels.record.hook import call_evaluate, call_hook
+from nivel.kernels.record.record import DIRECTION, ENDS_RUN, ENDS_STEP, STOP, WATCH, record_at
 from nivel.native.function import leaf
+
+# Passes of events: those that change their side within a step and are back on it at its end.
+#
+# Values of events have corners and jumps where a sign within their functions changes; such signs are watched as marks, and events are
+# looked at on both sides of each place where one changes. Elsewhere a value that is passed twice bends, and more than it did in the step
+# before.
+
+# A mark is located to SHARE of the step; on its near side an event is looked at so many times that before it.
+BEFORE_A_MARK = 8.0
+
+
+@leaf
+def is_back(machine, history, k):
+    """Whether value k is one of an event that is on the same side at both ends of the step."""
+    values, watched = of_run.run_at(history).event_values, record_at(machine).watched
+    side = values[of_run.SIDE, k]
+    return (
+        not is_mark(watched, k)
+        and side != 0.0
+        and side * values[of_run.AFTER, k] >= 0.0
+        and values[of_run.WHEN, k] == NEVER
+    )
+
+
+@leaf
+def note_pass(evaluate, correct, machine, history, k, theta, value, end):
+    """WHEN := where event k, which at θ has a value on its other side and at the share `end` of the step is back, changes its side as it is
+    wanted. Returns a status."""
+    values, watched = of_run.run_at(history).event_values, record_at(machine).watched
+    side = values[of_run.SIDE, k]
+    values[of_run.TWICE, k] = 1.0
+    if is_wanted(watched.event[k, DIRECTION], -side):
+        values[of_run.TO, k] = -side
+        status, values[of_run.WHEN, k] = locate(evaluate, correct, machine, history, k, theta, value)
+    else:
+        values[of_run.TO, k] = side
+        status, values[of_run.WHEN, k] = locate_between(
+            evaluate, correct, machine, history, k, -side, theta, value, end, values[of_run.AFTER, k]
+        )
+    return status
+
+
+@leaf
+def look_at(evaluate, correct, machine, history, theta, end):
+    """Note the events that are on their other side at the share θ of the step. Returns a status."""
+    run, watched = of_run.run_at(history), record_at(machine).watched
+    values, events = run.event_values, watched.event.shape[0]
+    status = probe(evaluate, correct, machine, history, theta)
+    if status != OK:
+        return status
+    call_hook(machine, WATCH, 0, run.clock[of_run.TIME] + theta * run.clock[of_run.LENGTH])
+    for k in range(events):
+        values[of_run.BETWEEN, k] = value_of(watched, k)
+    for k in range(events):
+        if is_back(machine, history, k) and side_of(values[of_run.BETWEEN, k], k, events) == -values[of_run.SIDE, k]:
+            status = note_pass(evaluate, correct, machine, history, k, theta, values[of_run.BETWEEN, k], end)
+            if status != OK:
+                return status
+    return OK
+
+
+@leaf
+def bends(run, k, end):
+    """Whether value k may be on its other side within the step up to the share `end`: it leaves its chord by more than its distance from
+    zero, if it bends as much as from the step before to this one. Of the first step nothing is known."""
+    values, h = run.event_values, end * run.clock[of_run.LENGTH]
+    before, after, past = np.abs(values[of_run.BEFORE, k]), np.abs(values[of_run.AFTER, k]), values[of_run.PAST, k]
+    bend = (
+        np.abs((values[of_run.AFTER, k] - values[of_run.BEFORE, k]) / h - values[of_run.SLOPE, k]) * h * h / (h + past)
+    )
+    return past > 0.0 and bend > min(before, after)
+
+
+@leaf
+def find_passes(evaluate, correct, machine, history, end):
+    """WHEN := where events change their sides that are back on them at the share `end` of the step. Returns a status."""
+    run, watched = of_run.run_at(history), record_at(machine).watched
+    values, events = run.event_values, watched.event.shape[0]
+    for k in range(events):
+        values[of_run.TWICE, k] = 0.0
+    for m in range(events):
+        if not is_mark(watched, m) or not 0.0 < values[of_run.WHEN, m] < end:
+            continue
+        theta = values[of_run.WHEN, m]
+        status = look_at(evaluate, correct, machine, history, theta, end)
+        if status == OK:
+            near = max(theta - BEFORE_A_MARK * SHARE, 0.0)
+            status = look_at(evaluate, correct, machine, history, near, end)
+        if status != OK:
+            return status
+    for k in range(events):
+        if not is_back(machine, history, k) or not bends(run, k, end):
+            continue
+        status, between = value_at(evaluate, correct, machine, history, k, 0.5 * end)
+        theta, value = NEVER, 0.0
+        if status == OK:
+            status, theta, value = look_between(evaluate, correct, machine, history, k, end, between)
+        if status == OK and theta < NEVER:
+            status = note_pass(evaluate, correct, machine, history, k, theta, value, end)
+        if status != OK:
+            return status
+    return OK
 
 
 @leaf
@@ -62,7 +179,7 @@ def find_events(evaluate, correct, machine, history):
     if status != OK:
         return status
     if counter[of_run.DENSE] == 0:
-        cubic(run, run.rate, run.scratch)
+        cubic(run, clock[of_run.LENGTH], run.rate, run.scratch)
     values[of_run.WHEN, :] = NEVER
     if has_switches(machine, run):
         pass_unseen(evaluate, machine, history)

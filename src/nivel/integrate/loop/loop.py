@@ -6,9 +6,8 @@ import numpy as np
 
 from nivel.integrate.loop import run as of_run
 from nivel.integrate.loop.dense import cubic, frame_time, inside
-from nivel.integrate.loop.energy import conserve
 from nivel.integrate.loop.events import begin_events, find_events, hand_out_events
-from nivel.integrate.loop.pace import allow, note_energy, note_step
+from nivel.integrate.loop.run import EVALUATIONS, TIME, UNCONSERVED, run_at
 from nivel.integrate.loop.samples import (
     completes,
     ends_at_switches,
@@ -19,11 +18,12 @@ from nivel.integrate.loop.samples import (
     take_samples,
     time_of,
 )
-from nivel.integrate.loop.step_control import fastest_turn
+from nivel.integrate.loop.step_control import evaluate_accepted, fastest_turn
 from nivel.integrate.loop.surfaces import allow_ahead, keep_ways
 from nivel.integrate.loop.switches import change_sides, has_switches, note_sides
+from nivel.kernels.bodies.rigid import turn_to_body_axes
 from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE, NOT_FINITE, OK, OPEN
-from nivel.kernels.output.observe import accept, observe
+from nivel.kernels.output.observe import accept, energies, observe
 from nivel.kernels.record.function import NEAR
 from nivel.kernels.record.hook import call_correct, call_evaluate, call_hook
 from nivel.kernels.record.record import DEPART, PASS, RESUME, record_at
@@ -31,6 +31,103 @@ from nivel.kernels.solve.saddle import contradicts, exceeds
 from nivel.kernels.tree.tree import has_passed
 from nivel.native.entry import entry
 from nivel.native.function import leaf
+
+# The pace of a run: how long its steps are at which time, how far and how fast bodies move in them, how often their equations are
+# iterated, and how long they may be.
+
+# Steps at which energies are looked at, as a share: multiples of an irrational number, so that no period of a load hides from them.
+IRRATIONAL, LOOKED_AT = 0.6180339887498949, 0.25
+
+
+@leaf
+def part_at(run, t):
+    """The part of the duration that holds the time t."""
+    share = (t - run.clock[of_run.START]) / (run.clock[of_run.END] - run.clock[of_run.START])
+    return np.int64(max(0.0, min(of_run.PARTS - 1.0, np.floor(share * of_run.PARTS))))
+
+
+@leaf
+def allow(run):
+    """clock[LARGEST] := what a step that begins now may be long: where it reaches into the next part, no longer there than one that begins
+    there may be; and a window no further than by a short step."""
+    clock, t = run.clock, run.clock[of_run.TIME]
+    k = part_at(run, t)
+    clock[of_run.LARGEST] = run.pace[of_run.ALLOWED, k]
+    if k + 1 < of_run.PARTS:
+        left = clock[of_run.START] + (k + 1) * (clock[of_run.END] - clock[of_run.START]) / of_run.PARTS - t
+        clock[of_run.LARGEST] = min(clock[of_run.LARGEST], left + run.pace[of_run.ALLOWED, k + 1])
+    for w in range(run.windows.shape[0]):
+        window = run.windows[w]
+        if t < window[of_run.UNTIL]:
+            clock[of_run.LARGEST] = min(clock[of_run.LARGEST], max(window[of_run.FROM] - t, 0.0) + window[of_run.SHORT])
+
+
+@leaf
+def note_step(machine, run, speed):
+    """Note the step from clock[TIME] to clock[REACHED]. speed : the largest angular speed at its begin [rad/s]; the record is that of a
+    state near its end."""
+    h = run.clock[of_run.REACHED] - run.clock[of_run.TIME]
+    turn = h * max(speed, fastest_turn(machine))
+    first = part_at(run, run.clock[of_run.TIME])
+    for k in range(first, part_at(run, run.clock[of_run.REACHED]) + 1):
+        run.pace[of_run.TAKEN, k] = max(run.pace[of_run.TAKEN, k], h)
+        run.pace[of_run.LEAST, k] = min(run.pace[of_run.LEAST, k], h)
+        run.pace[of_run.TURNED, k] = max(run.pace[of_run.TURNED, k], turn)
+    done = run.counter[of_run.ITERATIONS] + np.int64(record_at(machine).control.iterations[1])
+    k, iterations = part_at(run, run.clock[of_run.REACHED]), float(done - run.counter[of_run.COUNTED])
+    run.counter[of_run.COUNTED] = done
+    run.pace[of_run.STEPPED, k] += 1.0
+    run.pace[of_run.ITERATED, k] += iterations
+    run.pace[of_run.MOST_ITERATED, k] = max(run.pace[of_run.MOST_ITERATED, k], iterations)
+
+
+@leaf
+def note_energy(machine, run):
+    """Note the kinetic energy of the accepted state, just evaluated, at a quarter of the steps."""
+    place = IRRATIONAL * run.counter[of_run.DONE_STEPS]
+    if place - np.floor(place) >= LOOKED_AT:
+        return
+    bodies = record_at(machine).bodies
+    for b in range(bodies.mass.shape[0]):
+        turn_to_body_axes(bodies, b)
+    kinetic = energies(machine)[0]
+    k = part_at(run, run.clock[of_run.TIME])
+    run.pace[of_run.MOVING, k] = max(run.pace[of_run.MOVING, k], kinetic)
+
+
+# The energy constraint of geometric elimination (report 44, eqs. 121–136, in the form that works).
+#
+# After positions and velocities are back on their constraints, the velocities are scaled so that T + V - W + dissipated keeps its value
+# at the start. Scaling keeps Ċ = C_q v = 0 where no constraint depends on time.
+
+# The energy that is missing is a small share of the kinetic energy; near rest it is not, and no scale factor is meant by it.
+LARGEST_SHARE = 0.1
+
+
+@leaf
+def conserve(evaluate, machine, history):
+    """Scale the velocities of y, just evaluated, and evaluate again. States too near to rest are left and counted. Returns a status."""
+    run = run_at(history)
+    record = record_at(machine)
+    bodies, y = record.bodies, run.y
+    for b in range(bodies.mass.shape[0]):
+        turn_to_body_axes(bodies, b)
+    kinetic, potential = energies(machine)
+    last = y.shape[0] - 1
+    missing = record.control.energy[2] + y[last - 1] - y[last] - potential - kinetic
+    if missing == 0.0:
+        return OK  # at rest for good, where no factor is known
+    if not np.abs(missing) <= LARGEST_SHARE * kinetic:
+        run.counter[UNCONSERVED] += 1
+        return OK
+    factor = np.sqrt(1.0 + missing / kinetic)
+    for k in range(run.plain.shape[0]):
+        y[run.plain[k, 1]] *= factor
+    for k in range(run.turns.shape[0]):
+        for i in range(3):
+            y[run.turns[k, 1] + i] *= factor
+    run.counter[EVALUATIONS] += 1
+    return call_evaluate(evaluate, machine, run.clock[TIME], y, run.rate)
 
 
 @leaf
@@ -112,7 +209,7 @@ def write_inside(evaluate, correct, machine, history):
             counter[of_run.EVALUATIONS] += 1
             if status != OK:
                 return status
-            cubic(run, run.rate, run.scratch)
+            cubic(run, clock[of_run.LENGTH], run.rate, run.scratch)
         counter[of_run.KNOWN] = 0
         inside(run, (t - clock[of_run.TIME]) / clock[of_run.LENGTH], run.trial)
         status = call_correct(correct, machine, t, run.trial)
@@ -125,19 +222,6 @@ def write_inside(evaluate, correct, machine, history):
             return status
         write_frame(machine, history, t, run.trial)
     return OK
-
-
-@leaf
-def evaluate_accepted(evaluate, machine, history):
-    """rate := that of the state reached, which the search for events may have evaluated already. Returns a status."""
-    run = of_run.run_at(history)
-    if run.counter[of_run.KNOWN] == 1:
-        run.counter[of_run.KNOWN] = 0
-        for i in range(run.y.shape[0]):
-            run.rate[i] = run.scratch[i]
-        return OK
-    run.counter[of_run.EVALUATIONS] += 1
-    return call_evaluate(evaluate, machine, run.clock[of_run.TIME], run.y, run.rate)
 
 
 @leaf

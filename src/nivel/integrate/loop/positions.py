@@ -23,6 +23,7 @@ from nivel.integrate.loop.run import (
     run_at,
 )
 from nivel.integrate.loop.samples import time_of
+from nivel.kernels.algebra.rotation import product
 from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE, NOT_CLOSED, NOT_FINITE, OK
 from nivel.kernels.output.observe import accept
 from nivel.kernels.record.hook import call_correct, call_evaluate
@@ -59,12 +60,8 @@ def predict(run, h):
         z1 = h * (before[v + 2] + 0.5 * h * rate[v + 2])
         half = 0.5 * np.sqrt(x * x + z0 * z0 + z1 * z1)
         share = 0.5 * (np.sin(half) / half if half > 1e-6 else 1.0 - half * half / 6.0)
-        f0, f1, f2, f3 = np.cos(half), share * x, share * z0, share * z1
-        e0, e1, e2, e3 = before[q], before[q + 1], before[q + 2], before[q + 3]
-        y[q] = e0 * f0 - e1 * f1 - e2 * f2 - e3 * f3
-        y[q + 1] = e0 * f1 + e1 * f0 + e2 * f3 - e3 * f2
-        y[q + 2] = e0 * f2 + e2 * f0 + e3 * f1 - e1 * f3
-        y[q + 3] = e0 * f3 + e3 * f0 + e1 * f2 - e2 * f1
+        turn = np.cos(half), share * x, share * z0, share * z1
+        product(before[q : q + 4], turn, y[q : q + 4])
         for i in range(3):
             y[v + i] += h * rate[v + i]
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from nivel.kernels.core.arrays import F1, F2, I1, U1, U2
 from nivel.kernels.core.handle import reader
-from nivel.native.function import caller
+from nivel.native.function import caller, leaf
 from nivel.native.signature import Signature
 
 # entries of Run.clock
@@ -101,3 +101,21 @@ run_at = reader(Run)
 STEP_SIGNATURE = Signature("status", ("entry", "machine", "machine"))
 ADVANCE = Signature("status", ("entry", "entry", "entry", "machine", "machine"))
 call_step = caller(STEP_SIGNATURE)
+
+
+@leaf
+def add_rows(rows, h, weights, count, out):
+    """out += h Σ weights[j] rows[j] over the first `count` rows."""
+    for j in range(count):
+        if weights[j] != 0.0:
+            factor, row = h * weights[j], rows[j]
+            for i in range(out.shape[0]):
+                out[i] += factor * row[i]
+
+
+@leaf
+def sum_rows(rows, h, weights, count, out):
+    """out = h Σ weights[j] rows[j] over the first `count` rows."""
+    for i in range(out.shape[0]):
+        out[i] = 0.0
+    add_rows(rows, h, weights, count, out)

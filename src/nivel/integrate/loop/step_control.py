@@ -18,6 +18,7 @@ from nivel.integrate.loop.run import (
     DONE_STEPS,
     END,
     EVALUATIONS,
+    KNOWN,
     LARGEST,
     REACHED,
     REJECTED,
@@ -70,6 +71,15 @@ def size(run, x):
 
 
 @leaf
+def larger(largest, change, weight):
+    """The larger one of `largest` and |change|/weight; NaN once anything is NaN."""
+    share = np.abs(change)
+    if share > 0.0:
+        share /= weight
+    return largest if share <= largest else share + 0.0 * largest
+
+
+@leaf
 def raise_scale(run):
     """The scale of every entry follows the largest |y| so far, but for those that are not raised."""
     for i in range(run.y.shape[0]):
@@ -99,6 +109,19 @@ def exceeds_rotation_limit(machine, h):
     """How much shorter a step h that ends in the state last evaluated has to be for no body to turn too far; 1 where none does."""
     turn = fastest_turn(machine) * h
     return max(LEAST_CHANGE, 0.9 * LARGEST_TURN / turn) if turn > LARGEST_TURN + TURN_GAIN else 1.0
+
+
+@leaf
+def evaluate_accepted(evaluate, machine, history):
+    """rate := that of the state reached, which the search for events may have evaluated already. Returns a status."""
+    run = run_at(history)
+    if run.counter[KNOWN] == 1:
+        run.counter[KNOWN] = 0
+        for i in range(run.y.shape[0]):
+            run.rate[i] = run.scratch[i]
+        return OK
+    run.counter[EVALUATIONS] += 1
+    return call_evaluate(evaluate, machine, run.clock[TIME], run.y, run.rate)
 
 
 @leaf

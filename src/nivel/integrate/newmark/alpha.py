@@ -38,9 +38,17 @@ from nivel.integrate.loop.step_control import (
     reject,
     too_small,
 )
-from nivel.integrate.newmark.alpha_error import SHARE, filtered_error, part_of, plain_error
 from nivel.integrate.newmark.alpha_start import go_on_beyond, start
-from nivel.integrate.newmark.alpha_step import RATE, attempt, keep_step, refresh
+from nivel.integrate.newmark.alpha_step import (
+    RATE,
+    SHARE,
+    attempt,
+    filtered_error,
+    keep_step,
+    part_of,
+    plain_error,
+    refresh,
+)
 from nivel.integrate.newmark.correction_slopes import NUMBERS, ROWS
 from nivel.integrate.newmark.residual_newton import TOLERANCE as NEWTON_TOLERANCE
 from nivel.kernels.core.status import OK
@@ -74,7 +82,7 @@ def end_at_corner(evaluate, machine, history, t, fresh):
         status = call_evaluate(evaluate, machine, before(t), run.y, run.scratch)
         run.counter[EVALUATIONS] += 1
         clock[LENGTH] = t - clock[TIME]
-        cubic(run, run.rate, run.scratch)
+        cubic(run, clock[LENGTH], run.rate, run.scratch)
     if status == OK:
         status, jumps = pass_corner(machine, history, t)
         if jumps or fresh:
@@ -139,7 +147,7 @@ def choose_error(machine, history, end, h):
 
 @leaf
 def controlled_step(evaluate, machine, history):
-    """One accepted step of which the error is allowed, see `nivel.integrate.newmark.alpha_error`. Returns a status.
+    """One accepted step of which the error is allowed, see `nivel.integrate.newmark.alpha_step`. Returns a status.
 
     The step stays as it is until it may grow by WORTH: the matrix serves as long as it does.
     """

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.algebra.rotation import product
 from nivel.kernels.algebra.spatial import dot
 from nivel.kernels.algebra.trigonometry import cosine_and_sine
 from nivel.kernels.core.status import OK
@@ -28,12 +29,7 @@ def turn_by(theta, psi, out):
     half = 0.5 * np.sqrt(square)
     c, sine = cosine_and_sine(half)
     s = 0.5 * sine / half if half > 1e-4 else 0.5 - half * half / 12.0
-    x, y, z = s * psi[0], s * psi[1], s * psi[2]
-    e0, e1, e2, e3 = theta[0], theta[1], theta[2], theta[3]
-    out[0] = e0 * c - e1 * x - e2 * y - e3 * z
-    out[1] = e1 * c + e0 * x + e2 * z - e3 * y
-    out[2] = e2 * c + e0 * y + e3 * x - e1 * z
-    out[3] = e3 * c + e0 * z + e1 * y - e2 * x
+    product(theta, (c, s * psi[0], s * psi[1], s * psi[2]), out)
 
 
 @leaf

@@ -29,8 +29,8 @@ _left = np.linalg.inv(_vectors)
 GAMMA, MU = float(_mu[_real].real), complex(_mu[_pair])
 RIGHT, RIGHT_PAIR = np.ascontiguousarray(_vectors[:, 0].real), np.ascontiguousarray(_vectors[:, 1])
 LEFT, LEFT_PAIR = np.ascontiguousarray(_left[0].real), np.ascontiguousarray(_left[1])
-# d_k = Σ POWERS[k - 1, i] Z_i
-POWERS = np.linalg.inv(C[:, None] ** (_powers + 1))
+# d_k = Σ COLLOCATION[k - 1, i] Z_i
+COLLOCATION = np.linalg.inv(C[:, None] ** (_powers + 1))
 # The collocation polynomial misses the solution inside a step by h⁴ times the integral of Π (θ - c_i), which is zero at both ends (ibid.
 # II.7 of the first volume). Its coefficients of θ … θ⁴, for a slope of 1 at θ = 0:
 _bend = np.polyint(np.poly(C))[::-1][1:]

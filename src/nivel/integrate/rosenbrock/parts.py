@@ -8,28 +8,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.integrate.loop.run import EVALUATIONS, KNOWN, REACHED, REJECTED, STEP, TIME, run_at
+from nivel.integrate.loop.run import KNOWN, REACHED, REJECTED, STEP, TIME, run_at
+from nivel.integrate.loop.step_control import evaluate_accepted
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import record_at
-from nivel.native.function import leaf, shared
+from nivel.native.function import shared
 
 # A step has at most this many parts.
 PARTS = 16
 # Pressures [Pa] of a step and of two half ones may differ by this much.
 LARGEST = 2e5
-
-
-@leaf
-def evaluate_begin(evaluate, machine, run):
-    """rate := that of y, which may be evaluated already. Returns a status."""
-    if run.counter[KNOWN] == 1:
-        run.counter[KNOWN] = 0
-        for i in range(run.y.shape[0]):
-            run.rate[i] = run.scratch[i]
-        return OK
-    run.counter[EVALUATIONS] += 1
-    return call_evaluate(evaluate, machine, run.clock[TIME], run.y, run.rate)
 
 
 @shared
@@ -70,7 +58,7 @@ def step_in_parts(evaluate, machine, history, attempt, first):
             clock[TIME] = begin + done * (h / PARTS)
             clock[STEP] = size * (h / PARTS)
             clock[REACHED] = end if done + size == PARTS else clock[TIME] + clock[STEP]
-            status = evaluate_begin(evaluate, machine, run)
+            status = evaluate_accepted(evaluate, machine, history)
     if clock[STEP] != h:
         clock[TIME], clock[REACHED], clock[STEP] = begin, end, h
         for i in range(y.shape[0]):

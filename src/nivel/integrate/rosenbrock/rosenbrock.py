@@ -9,7 +9,7 @@ The order is 2 for any γ, J and f_t, so the parts of J that `nivel.kernels.resi
 the method L-stable for the exact J. With the larger one neither the step nor the state inside it overshoots where a motion only decays, but
 the error of everything else, (3 γ² - 2 γ³ - 1/6) h³, is 34 times as large: a machine with springs swings, so the smaller one.
 
-On dual numbers k₁ and k₂ have the slopes that J gives them too (`nivel.kernels.residual.shifted_slopes`).
+On dual numbers k₁ and k₂ have the slopes that J gives them too (`nivel.kernels.residual.shifted_along`).
 """
 
 from __future__ import annotations
@@ -22,9 +22,8 @@ from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP,
 from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate
-from nivel.kernels.residual.shifted_along import prepare_shifted, return_to, solve_shifted
-from nivel.kernels.residual.shifted_slopes import ROWS as OF_SLOPES
-from nivel.kernels.residual.shifted_slopes import settle_solution
+from nivel.kernels.residual.shifted_along import ROWS as OF_SLOPES
+from nivel.kernels.residual.shifted_along import prepare_shifted, return_to, settle_solution, solve_shifted
 from nivel.motion.modal_shift import factorise_shifted_modes, solve_shifted_modes
 from nivel.native.entry import entry
 from nivel.native.function import leaf

@@ -2,22 +2,100 @@
 
 The corrected polynomial P + e c has to satisfy the equations of motion at the new time, h f(t, P(0) + e) = P'(0) + c_1 e. Either e is
 evaluated again and again from f (functional iteration, for motions that are not stiff), or Newton's method is used:
-(1 - (h/c_1) ∂f/∂y) Δe = (h f - P'(0) - c_1 e)/c_1, with a matrix that serves for many steps. It is one of
-`nivel.integrate.variable_order.newton_matrices`; for each a corrector of its own is compiled.
+(1 - (h/c_1) ∂f/∂y) Δe = (h f - P'(0) - c_1 e)/c_1, with a matrix that serves for many steps. It is one
+of those below; for each a corrector of its own is compiled.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, MOST_ITERATIONS, NEWTON, REACHED, run_at
+from nivel.integrate.loop.run import (
+    DENSE,
+    EVALUATIONS,
+    FACTORISATIONS,
+    ITERATIONS,
+    MOST_ITERATIONS,
+    NEWTON,
+    ORDER,
+    POWERS,
+    REACHED,
+    run_at,
+)
 from nivel.integrate.loop.step_control import size
-from nivel.integrate.variable_order.nordsieck import CHANGE, CONTRACTION, CORRECTION, PREDICTED, RATE, SHARE, C
+from nivel.integrate.multistep.multistep import renew
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.lu import solve_lu
 from nivel.kernels.core.lanes import is_whole, steepest
 from nivel.kernels.core.status import NOT_CONVERGED, OK
 from nivel.kernels.record.hook import call_evaluate
+from nivel.kernels.residual.shifted_along import prepare_shifted, solve_shifted
 from nivel.native.function import leaf
+
+# The polynomial of a multistep method as the array z_k = h^k y^{(k)}/k! (Nordsieck 1962): P(x) = Σ z_k x^k with x = (t - t_n)/h.
+
+# Rows of run.stages and entries of run.numbers of the multistep methods that choose their steps and orders.
+
+MOST_ORDER = 12
+# Rows of run.stages, all (ny,): the Nordsieck array, the same predicted; the correction e of this step, D_q of the last one, the rate of
+# the iterate, its change; h ẏ of the last corrected polynomial; what of e counts as an error.
+Z, PREDICTED = 0, MOST_ORDER + 1
+CORRECTION, LAST, RATE, CHANGE, SLOPE, ESTIMATE = 26, 27, 28, 29, 30, 31
+ROWS = 32
+# Entries of run.numbers: the step that Z is scaled with [s]; how much an iteration reduces the error; the h/c_1 that run.matrix is for [s]
+# (0: none); accepted steps until the order is looked at again; the step of LAST [s] (0: none).
+SCALED, CONTRACTION, SHARE, WAIT, LAST_STEP = 0, 1, 2, 3, 4
+# … and where vectors begin there: the last steps, newest first [s]; ξ; the coefficients c; work for polynomials
+STEPS, XI, C, WORK = 5, 20, 35, 50
+NUMBERS = 66
+
+
+@leaf
+def predict(run, ratio):
+    """PREDICTED := Z about the end of a step that is `ratio` times the one that Z is scaled with."""
+    q, n, stages = run.counter[ORDER], run.y.shape[0], run.stages
+    power = 1.0
+    for k in range(q + 1):
+        for i in range(n):
+            stages[PREDICTED + k, i] = power * stages[Z + k, i]
+        power *= ratio
+    for k in range(q):
+        for m in range(q - k):
+            j = q - 1 - m
+            for i in range(n):
+                stages[PREDICTED + j, i] += stages[PREDICTED + j + 1, i]
+
+
+@leaf
+def accept(run, c):
+    """Z := PREDICTED + c CORRECTION."""
+    for k in range(run.counter[ORDER] + 1):
+        for i in range(run.y.shape[0]):
+            run.stages[Z + k, i] = run.stages[PREDICTED + k, i] + c[k] * run.stages[CORRECTION, i]
+
+
+@leaf
+def add_polynomial(run, p, degree, row, factor):
+    """Z += factor p(x) times row `row` of the stages, for a polynomial of this degree without a constant."""
+    for k in range(1, degree + 1):
+        for i in range(run.y.shape[0]):
+            run.stages[Z + k, i] += factor * p[k] * run.stages[row, i]
+
+
+@leaf
+def fill_dense(run):
+    """The dense output of the step that Z has just reached: the same polynomial about the begin of the step, where it is `previous`."""
+    q, n, dense = run.counter[ORDER], run.y.shape[0], run.dense
+    for k in range(1, q + 1):
+        for i in range(n):
+            dense[k - 1, i] = run.stages[Z + k, i]
+    for k in range(q):
+        for m in range(q - max(k, 1)):
+            j = q - 1 - m
+            for i in range(n):
+                dense[j - 1, i] -= dense[j, i]
+    run.counter[DENSE], run.counter[POWERS] = q, 1
+
 
 # More iterations than this are dearer than a shorter step.
 MOST = 4
@@ -136,3 +214,36 @@ def corrector(find_matrix, solve_matrix):
         return solve_matrix(machine, history, x) if run.counter[NEWTON] == 1 else OK
 
     return correct, damp
+
+
+# Newton's matrices of multistep methods that choose their steps: from differences of f, for any equations of motion; and from exact
+# derivatives of the equations of motion, sparse.
+
+
+@leaf
+def find_matrix(evaluate, machine, history, share, rate):
+    """run.matrix := factors of 1 - share ∂f/∂y at run.trial, where `rate` is f. Returns a status."""
+    run = run_at(history)
+    return renew(evaluate, machine, history, run.clock[REACHED], share, run.trial, rate)
+
+
+@leaf
+def solve_matrix(machine, history, x):
+    """Overwrite x (ny,) with the solution. Returns a status."""
+    run = run_at(history)
+    solve_lu(run.matrix, run.pivot, x)
+    return OK
+
+
+@leaf
+def find_exact_matrix(evaluate, machine, history, share, rate):
+    """The factors that 1 - share ∂f/∂y takes at run.trial, last evaluated with f = `rate`. Returns a status."""
+    run = run_at(history)
+    return prepare_shifted(machine, run.clock[REACHED], run.trial, rate, share)
+
+
+@leaf
+def solve_exact_matrix(machine, history, x):
+    """Overwrite x (ny,) with the solution. Returns a status."""
+    run = run_at(history)
+    return solve_shifted(machine, run.clock[REACHED], x, run.numbers[SHARE], 0.0)

@@ -20,11 +20,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.dense import wanted
-from nivel.integrate.loop.run import NEWTON, ORDER, RESTART, STEP, run_at
+from nivel.integrate.loop.run import DONE_STEPS, NEWTON, ORDER, RESTART, STEP, STEP_SIGNATURE, run_at
 from nivel.integrate.loop.step_control import (
     AFTER_FAILURE,
     LEAST_CHANGE,
+    allowed,
     enter,
     exceeds_rotation_limit,
     is_fresh,
@@ -33,15 +35,18 @@ from nivel.integrate.loop.step_control import (
     size,
     too_small,
 )
-from nivel.integrate.variable_order.multistep_polynomials import ADAMS, correction, monic
-from nivel.integrate.variable_order.nordsieck import (
+from nivel.integrate.variable_order.multistep_polynomials import ADAMS, BDF, correction, monic
+from nivel.integrate.variable_order.variable_corrector import (
     CHANGE,
     CONTRACTION,
     CORRECTION,
     ESTIMATE,
+    FORGET,
     LAST,
     LAST_STEP,
     MOST_ORDER,
+    NUMBERS,
+    ROWS,
     SCALED,
     SHARE,
     SLOPE,
@@ -53,11 +58,16 @@ from nivel.integrate.variable_order.nordsieck import (
     Z,
     accept,
     add_polynomial,
+    corrector,
     fill_dense,
+    find_exact_matrix,
+    find_matrix,
     predict,
+    solve_exact_matrix,
+    solve_matrix,
 )
-from nivel.integrate.variable_order.variable_corrector import FORGET
 from nivel.kernels.core.status import OK
+from nivel.native.entry import entry
 from nivel.native.function import leaf
 
 # Errors are expected to be that much larger than estimated: with the order less one, the same, one more.
@@ -237,3 +247,62 @@ def multistep(family, most, correct, damp):
         return status
 
     return variable_step
+
+
+# Multistep methods of variable step and order: Adams–Moulton of orders 1 to 11, which with functional iteration goes on from the next
+# order, and BDF of orders 1 to 5, with matrices from differences or with exact tangents.
+
+MOST_ADAMS_ORDER = 11
+ADAMS_SHARE = 0.03
+
+variable_step = multistep(ADAMS, MOST_ADAMS_ORDER, *corrector(find_matrix, solve_matrix))
+
+
+@entry(STEP_SIGNATURE)
+def adams(evaluate, machine, history):
+    """One accepted step."""
+    return variable_step(evaluate, machine, history, allowed(run_at(history), ADAMS_SHARE))
+
+
+# BDF (Gear's methods) of orders 1 to 5, of variable step.
+#
+# It damps and delays every period a little, so its errors add up: a step gets BDF_SHARE of the tolerance, or when that would be more than
+# BDF_TOTAL for all the steps so far, a share of BDF_TOTAL. After many periods the errors have then grown as the logarithm of the number of
+# steps.
+
+MOST_BDF_ORDER = 5
+BDF_SHARE, BDF_TOTAL = 0.001, 0.3
+
+gear_step = multistep(BDF, MOST_BDF_ORDER, *corrector(find_matrix, solve_matrix))
+
+
+@leaf
+def of_step(history):
+    """What the next step may be wrong by, as a share of the scales."""
+    run = run_at(history)
+    return allowed(run, min(BDF_SHARE, BDF_TOTAL / (1.0 + run.counter[DONE_STEPS])))
+
+
+@entry(STEP_SIGNATURE)
+def gear(evaluate, machine, history):
+    """One accepted step."""
+    return gear_step(evaluate, machine, history, of_step(history))
+
+
+# BDF of orders 1 to 5, of variable step, for stiff machines: Newton's iteration with exact tangents
+# (`nivel.kernels.residual.shifted_along`).
+
+bdf_step = multistep(BDF, MOST_BDF_ORDER, *corrector(find_exact_matrix, solve_exact_matrix))
+
+
+@entry(STEP_SIGNATURE)
+def bdf(evaluate, machine, history):
+    """One accepted step."""
+    return bdf_step(evaluate, machine, history, of_step(history))
+
+
+FACTS = (
+    IntegratorFacts("adams", adams, MOST_ADAMS_ORDER + 1, ROWS, NUMBERS, kind="corrector", multistep=True),
+    IntegratorFacts("gear", gear, MOST_BDF_ORDER, ROWS, NUMBERS, kind="corrector", multistep=True),
+    IntegratorFacts("bdf", bdf, MOST_BDF_ORDER, ROWS, NUMBERS, kind="corrector", needs="directions", multistep=True),
+)

@@ -7,8 +7,7 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.output.observe import accept
 from nivel.kernels.record.hook import call_family
 from nivel.kernels.record.record import record_at
-from nivel.kernels.residual.tangent import load_twin
-from nivel.kernels.residual.tangent_parts import differentiate_parts
+from nivel.kernels.residual.tangent import differentiate_parts, load_twin
 from nivel.native.entry import entry
 from nivel.native.signature import Signature
 

@@ -169,7 +169,7 @@ class Newton(NamedTuple):
     balance: (
         RealFactors  # of the accelerations, see `nivel.kernels.residual.balance`; without numbers for most machines
     )
-    filter: RealFactors  # of errors of chosen steps, see `nivel.integrate.newmark.alpha_error`; without numbers where none are
+    filter: RealFactors  # of errors of chosen steps, see `nivel.integrate.newmark.alpha_step`; without numbers where none are
     balanced: F1  # (2,) 1 where it has factors; length of the machine [m], which turns are measured by
     asked: F1  # (3,) cq and cv of derivatives by hand, 1 where they are of `balance`; see `nivel.elements.beams.exact_slopes`
     # (1,) 3: positions are closed by the multipliers; 2: velocities are, and positions by a correction; 1: accelerations are; 0: of

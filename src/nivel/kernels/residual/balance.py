@@ -14,7 +14,7 @@ from nivel.kernels.core.status import NOT_CONVERGED, NOT_FINITE, OK
 from nivel.kernels.record.hook import call_hook
 from nivel.kernels.record.record import MOMENTARY, NONE, record_at
 from nivel.kernels.residual.residual import acceleration_of
-from nivel.kernels.residual.tangent_parts import differentiate_first, own_rates
+from nivel.kernels.residual.tangent import differentiate_first, own_rates
 from nivel.kernels.solve.newton_matrix import factorise_entries, solve_entries
 from nivel.native.function import stage
 

@@ -20,7 +20,7 @@ from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.rotation import angular_velocity
 from nivel.kernels.record.record import NONE, record_at
 from nivel.kernels.residual.residual import known_multiplier
-from nivel.kernels.residual.tangent_parts import differentiate_parts
+from nivel.kernels.residual.tangent import differentiate_parts
 from nivel.kernels.solve.newton_matrix import factorise_entries, solve_entries
 from nivel.native.function import leaf
 

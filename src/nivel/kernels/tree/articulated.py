@@ -216,23 +216,28 @@ def applied(bodies, tree, b, out):
 
 
 @stage
-def whiten_efforts(machine):
-    """z of all applied and inertia forces, from the outermost node inwards."""
+def hand_all_inwards(machine):
+    """z of the wrenches in `tree.wrench`, from the outermost node inwards."""
     record = record_at(machine)
-    bodies, tree, z = record.bodies, record.tree, record.saddle.z
-    ground = bodies.mass.shape[0]
-    for b in range(ground):
-        applied(bodies, tree, b, tree.wrench[b])
+    tree, z, ground = record.tree, record.saddle.z, record.bodies.mass.shape[0]
     count = tree.node.shape[0]
     for m in range(count):
         node = tree.node[count - 1 - m]
         child, parent, first, last = node[0], node[1], np.int64(node[4]), np.int64(node[5])
         wrench = tree.wrench[child]
         for c in range(last - first):
-            k = last - 1 - c
-            z[k, 0] = transmit(tree, k, wrench)
+            z[last - 1 - c, 0] = transmit(tree, last - 1 - c, wrench)
         if parent != ground:
             hand_wrench(wrench, tree.arm[child], tree.wrench[parent])
+
+
+@stage
+def whiten_efforts(machine, y):
+    """z of all applied and inertia forces; y is not needed for it here."""
+    record = record_at(machine)
+    for b in range(record.bodies.mass.shape[0]):
+        applied(record.bodies, record.tree, b, record.tree.wrench[b])
+    hand_all_inwards(machine)
 
 
 @stage

@@ -84,8 +84,8 @@ def applied_on_modes(bodies, tree, own, modal, f):
 
 
 @stage
-def whiten_flexible_efforts(machine):
-    """z of all applied and inertia forces, from the outermost node inwards."""
+def whiten_flexible_efforts(machine, y):
+    """z of all applied and inertia forces, from the outermost node inwards; y is not needed for it here."""
     record = record_at(machine)
     bodies, tree, own, modal = record.bodies, record.tree, record.flexible, record.modal
     ground = bodies.mass.shape[0]

@@ -78,8 +78,8 @@ NAMED = [
     # friction and sensors
     Spoilt("friction: Stribeck's exponent", "kernels/elements/friction.py", "np.exp(-ratio * ratio)", "np.exp(-ratio)",
              verification("friction")),
-    Spoilt("friction: load of a collar", "kernels/elements/friction.py", "return load + n[COLLAR] * absolute(fz)",
-             "return load + n[COLLAR] * fz",
+    Spoilt("friction: load of a collar", "kernels/elements/friction.py", "return load + n[COLLAR] * absolute(f[2])",
+             "return load + n[COLLAR] * f[2]",
              verification("friction", "frictions_together")),
     Spoilt("friction: multipliers", "kernels/elements/friction.py", "total += friction.response[k, row] * friction.force[k]",
              "total -= friction.response[k, row] * friction.force[k]", verification("friction")),
@@ -90,8 +90,8 @@ NAMED = [
              "value = minus(value, cross(turning, w))", verification("sensors")),
     # beams, rails, flexible bodies
     Spoilt("rail: product of rates", "kernels/bodies/rail.py", "+ 2.0 * dot(a[1], b[1])", "+ dot(a[1], b[1])", verification("rails")),
-    Spoilt("beam: stored energy", "elements/beams/exact.py", "stored += 0.5 * elastic * e",
-             "stored += 0.51 * elastic * e",
+    Spoilt("beam: stored energy", "elements/beams/exact.py", "stored += 0.5 * s[i] * strain[i]",
+             "stored += 0.51 * s[i] * strain[i]",
              verification("beam_elements")),
     Spoilt("beam: change of the tangent", "elements/beams/exact.py", "outwards = da * along - db * across",
              "outwards = da * along + db * across", verification("beam_elements")),

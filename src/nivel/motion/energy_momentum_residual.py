@@ -29,11 +29,11 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot, multiply
+from nivel.kernels.algebra.vectors import seen
 from nivel.kernels.bodies.floating_dynamics import do_flexible, gather_frames
 from nivel.kernels.bodies.floating_frame import bend_body, modes_of
 from nivel.kernels.bodies.locked_motion import internal_motion, locked_motion
 from nivel.kernels.bodies.rigid import load_weight
-from nivel.kernels.bodies.shared_mass import transposed_product
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import apply_forces, call_hook, family
 from nivel.kernels.record.record import MODES, record_at
@@ -208,7 +208,7 @@ def straighten_nodes(machine):
     half = 0.5 * interval.numbers[STEP]
     for n in range(interval.node.shape[0]):
         m = interval.node[n]
-        A, w = markers.A[m], transposed_product(markers.frame_b[m], bodies.omega_b[markers.body[m]])
+        A, w = markers.A[m], seen(markers.frame_b[m], bodies.omega_b[markers.body[m]])
         k = half * w[0], half * w[1], half * w[2]
         sigma = np.sqrt(1.0 + dot(k, k))
         for i in range(3):

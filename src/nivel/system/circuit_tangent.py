@@ -23,7 +23,6 @@ STATES: dict[Family, int] = {
     directional_valves.move: poppets.STATE,
     poppets.lift: poppets.STATE,
     spools.drive: spools.STATE,
-    rotary.set_displacement: rotary.STATE,
     pump_control.regulate: pump_control.STATE,
 }
 # and with the coordinates on which families act

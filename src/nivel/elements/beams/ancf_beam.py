@@ -16,6 +16,7 @@ import numpy as np
 
 from nivel.elements.beams.exact import gauss, section_forces
 from nivel.elements.beams.gradients import STEP, Array, hermite, lengths_of, moved_vectors, unstressed_vectors
+from nivel.elements.rows import element
 from nivel.kernels.algebra.gradients import (
     DAMPING,
     FORCE,
@@ -28,8 +29,7 @@ from nivel.kernels.algebra.gradients import (
     read_vectors,
 )
 from nivel.kernels.algebra.spatial import dot
-from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import family
+from nivel.kernels.algebra.vectors import combined, minus, plus, times
 from nivel.kernels.record.record import record_at
 from nivel.known import Beam
 from nivel.lazy import dataclass
@@ -48,15 +48,13 @@ NUMBERS = POINT + POINTS * COLUMNS
 def between(n, first, j, share):
     """Vector j of both nodes, or its rate, from n[first] on: linear between them."""
     a, b = first + 3 * j, first + 3 * (WIDTH + j)
-    rest = 1.0 - share
-    return rest * n[a] + share * n[b], rest * n[a + 1] + share * n[b + 1], rest * n[a + 2] + share * n[b + 2]
+    return combined(1.0 - share, n[a:], share, n[b:])
 
 
 @stage
 def change(n, first, j):
     """Its derivative along the line."""
-    a, b, over = first + 3 * j, first + 3 * (WIDTH + j), 1.0 / n[LENGTH]
-    return over * (n[b] - n[a]), over * (n[b + 1] - n[a + 1]), over * (n[b + 2] - n[a + 2])
+    return times(1.0 / n[LENGTH], minus(n[first + 3 * (WIDTH + j) :], n[first + 3 * j :]))
 
 
 @stage
@@ -66,12 +64,6 @@ def pull(n, j, share, value, slope):
     for i in range(3):
         n[a + i] -= (1.0 - share) * value[i] - over * slope[i]
         n[b + i] -= share * value[i] + over * slope[i]
-
-
-@stage
-def weighed(a, x, b, y):
-    """a x + b y of 3-vectors."""
-    return a * x[0] + b * y[0], a * x[1] + b * y[1], a * x[2] + b * y[2]
 
 
 @stage
@@ -94,18 +86,11 @@ def point_of_section(n, q, control):
     e4, r4 = dot(d, Zs) - unstrained[4], dot(v, Zs) + dot(d, zs)
     e5, r5 = -dot(d, Ys) - unstrained[5], -dot(v, Ys) - dot(d, ys)
     strain, rate = (e0, e1, e2, e3, e4, e5), (r0, r1, r2, r3, r4, r5)
-    s0, s1, s2, s3, s4, s5 = section_forces(n, STIFFNESS, strain, rate, q[0], n[DAMPING], control)
-    on_d, across = weighed(s1, Y, s2, Z), weighed(s4, Zs, -s5, Ys)
-    add_along_line(
-        n,
-        weights,
-        WIDTH,
-        s0 * d[0] + on_d[0] + across[0],
-        s0 * d[1] + on_d[1] + across[1],
-        s0 * d[2] + on_d[2] + across[2],
-    )
-    pull(n, 2, share, weighed(s1, d, -0.5 * s3, Zs), weighed(0.5 * s3, Z, -s5, d))
-    pull(n, 3, share, weighed(s2, d, 0.5 * s3, Ys), weighed(-0.5 * s3, Y, s4, d))
+    (s0, s1, s2), (s3, s4, s5) = section_forces(n, STIFFNESS, strain, rate, q[0], n[DAMPING], control)
+    on_d, across = combined(s1, Y, s2, Z), combined(s4, Zs, -s5, Ys)
+    add_along_line(n, weights, WIDTH, plus(plus(times(s0, d), on_d), across))
+    pull(n, 2, share, combined(s1, d, -0.5 * s3, Zs), combined(0.5 * s3, Z, -s5, d))
+    pull(n, 3, share, combined(s2, d, 0.5 * s3, Ys), combined(-0.5 * s3, Y, s4, d))
 
 
 @stage
@@ -127,20 +112,16 @@ def section_of_node(n, a, control):
         n[on_z + i] -= s1 * z[i] + s2 * y[i]
 
 
-@family
-def apply(machine, number, t):
-    """All elements."""
+@element
+def apply(machine, index, n, t):
+    """An element."""
     record = record_at(machine)
-    elements, control = record.elements, record.control
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        read_vectors(record.markers, index, n, WIDTH)
-        for g in range(POINTS):
-            point_of_section(n, n[POINT + COLUMNS * g : POINT + COLUMNS * (g + 1)], control)
-        section_of_node(n, 0, control)
-        section_of_node(n, 1, control)
-        push_vectors(record.bodies, record.markers, index, n, WIDTH)
-    return OK
+    read_vectors(record.markers, index, n, WIDTH)
+    for g in range(POINTS):
+        point_of_section(n, n[POINT + COLUMNS * g : POINT + COLUMNS * (g + 1)], record.control)
+    section_of_node(n, 0, record.control)
+    section_of_node(n, 1, record.control)
+    push_vectors(record.bodies, record.markers, index, n, WIDTH)
 
 
 @dataclass(frozen=True)

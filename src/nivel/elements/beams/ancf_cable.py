@@ -13,6 +13,7 @@ import numpy as np
 
 from nivel.elements.beams.exact import gauss
 from nivel.elements.beams.gradients import STEP, Array, hermite, lengths_of, line_at, moved_vectors
+from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import arctan2
 from nivel.kernels.algebra.gradients import (
     DAMPING,
@@ -25,8 +26,8 @@ from nivel.kernels.algebra.gradients import (
     read_vectors,
 )
 from nivel.kernels.algebra.spatial import cross, dot
-from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import family
+from nivel.kernels.algebra.vectors import axis, minus, plus, times
+from nivel.kernels.forces.wrench import add_torque
 from nivel.kernels.record.record import record_at
 from nivel.known import Beam
 from nivel.native.function import stage
@@ -52,7 +53,7 @@ def stretch_point(n, q, control):
     control.stored[0] += 0.5 * q[0] * n[STRETCH] * strain * strain
     control.power[1] += q[0] * viscous * rate
     f = q[0] * (n[STRETCH] * strain + viscous) / length
-    add_along_line(n, weights, WIDTH, f * d[0], f * d[1], f * d[2])
+    add_along_line(n, weights, WIDTH, times(f, d))
 
 
 @stage
@@ -63,31 +64,23 @@ def bending_point(n, q, control):
     v, vv = along_line(n, RATE, slopes, WIDTH), along_line(n, RATE, bends, WIDTH)
     over = 1.0 / dot(d, d)
     c, first, second = cross(d, dd), cross(v, dd), cross(d, vv)
-    K = over * c[0], over * c[1], over * c[2]
-    shrinks = 2.0 * over * dot(d, v)
-    k0 = over * (first[0] + second[0]) - shrinks * K[0]
-    k1 = over * (first[1] + second[1]) - shrinks * K[1]
-    k2 = over * (first[2] + second[2]) - shrinks * K[2]
-    along = over * (k0 * d[0] + k1 * d[1] + k2 * d[2])
-    k0, k1, k2 = k0 - along * d[0], k1 - along * d[1], k2 - along * d[2]
+    K = times(over, c)
+    rate = minus(times(over, plus(first, second)), times(2.0 * over * dot(d, v), K))
+    rate = minus(rate, times(over * dot(rate, d), d))
     EI, lag = n[BENDING], n[DAMPING]
     control.stored[0] += 0.5 * q[0] * EI * dot(K, K)
-    control.power[1] += q[0] * lag * EI * (k0 * k0 + k1 * k1 + k2 * k2)
-    s = q[0] * EI * over
-    M = s * (K[0] + lag * k0), s * (K[1] + lag * k1), s * (K[2] + lag * k2)
-    of_slope, of_bend, both = cross(dd, M), cross(M, d), 2.0 * dot(K, M)
-    add_along_line(n, slopes, WIDTH, of_slope[0] - both * d[0], of_slope[1] - both * d[1], of_slope[2] - both * d[2])
-    add_along_line(n, bends, WIDTH, of_bend[0], of_bend[1], of_bend[2])
+    control.power[1] += q[0] * lag * EI * dot(rate, rate)
+    M = times(q[0] * EI * over, plus(K, times(lag, rate)))
+    add_along_line(n, slopes, WIDTH, minus(cross(dd, M), times(2.0 * dot(K, M), d)))
+    add_along_line(n, bends, WIDTH, cross(M, d))
 
 
 @stage
 def twist_of(A, B):
     """Turn from axes A to axes B about their x axes, beyond the least turn that takes one x axis to the other [rad]."""
-    t, s = (A[0, 0], A[1, 0], A[2, 0]), (B[0, 0], B[1, 0], B[2, 0])
-    y, e = (A[0, 1], A[1, 1], A[2, 1]), (B[0, 1], B[1, 1], B[2, 1])
-    z = B[0, 2], B[1, 2], B[2, 2]
+    t, s, y, e, z = axis(A, 0), axis(B, 0), axis(A, 1), axis(B, 1), axis(B, 2)
     share = dot(s, y) / (1.0 + dot(t, s))
-    carried = y[0] - share * (t[0] + s[0]), y[1] - share * (t[1] + s[1]), y[2] - share * (t[2] + s[2])
+    carried = minus(y, times(share, plus(t, s)))
     return arctan2(-dot(carried, z), dot(carried, e))
 
 
@@ -96,34 +89,30 @@ def twist_nodes(bodies, markers, index, n, control):
     """What twist between the nodes stores, loses and turns."""
     a, b = index[AXES], index[AXES + 1]
     A, B, first, second = markers.A[a], markers.A[b], markers.body[a], markers.body[b]
-    share = 1.0 / (1.0 + A[0, 0] * B[0, 0] + A[1, 0] * B[1, 0] + A[2, 0] * B[2, 0])
-    m = share * (A[0, 0] + B[0, 0]), share * (A[1, 0] + B[1, 0]), share * (A[2, 0] + B[2, 0])
+    s, x = axis(A, 0), axis(B, 0)
+    m = times(1.0 / (1.0 + s[0] * x[0] + s[1] * x[1] + s[2] * x[2]), plus(s, x))
     angle = twist_of(A, B)
     rate = dot(m, bodies.omega[second]) - dot(m, bodies.omega[first])
     viscous = n[DAMPING] * n[TWIST] * rate
     control.stored[0] += 0.5 * n[TWIST] * angle * angle
     control.power[1] += viscous * rate
     torque = n[TWIST] * angle + viscous
-    for i in range(3):
-        bodies.wrench[first, 3 + i] += torque * m[i]
-        bodies.wrench[second, 3 + i] -= torque * m[i]
+    add_torque(bodies, first, times(torque, m))
+    add_torque(bodies, second, times(-torque, m))
 
 
-@family
-def apply(machine, number, t):
-    """All elements."""
+@element
+def apply(machine, index, n, t):
+    """An element."""
     record = record_at(machine)
-    elements, bodies, markers, control = record.elements, record.bodies, record.markers, record.control
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        read_vectors(markers, index, n, WIDTH)
-        for g in range(STRETCH_POINTS):
-            stretch_point(n, n[STRETCHED + 5 * g : STRETCHED + 5 * g + 5], control)
-        for g in range(BENDING_POINTS):
-            bending_point(n, n[BENT + 9 * g : BENT + 9 * g + 9], control)
-        twist_nodes(bodies, markers, index, n, control)
-        push_vectors(bodies, markers, index, n, WIDTH)
-    return OK
+    bodies, markers, control = record.bodies, record.markers, record.control
+    read_vectors(markers, index, n, WIDTH)
+    for g in range(STRETCH_POINTS):
+        stretch_point(n, n[STRETCHED + 5 * g : STRETCHED + 5 * g + 5], control)
+    for g in range(BENDING_POINTS):
+        bending_point(n, n[BENT + 9 * g : BENT + 9 * g + 9], control)
+    twist_nodes(bodies, markers, index, n, control)
+    push_vectors(bodies, markers, index, n, WIDTH)
 
 
 def cable_numbers(beam: Beam) -> list[list[float]]:

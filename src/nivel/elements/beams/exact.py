@@ -22,14 +22,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.elements.beams.beam import Beam
-from nivel.elements.rows import Row, several
+from nivel.elements.rows import Row, element, several
 from nivel.elements.states import Coupled
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.inverse_tangent import inverse_tangent_by, inverse_tangent_factor
 from nivel.kernels.algebra.relative_rotation import rotation_vector
 from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.algebra.vectors import minus, opposite, plus, put, seen, times, turned
 from nivel.kernels.bodies.floating_frame import turn_factors
-from nivel.kernels.bodies.shared_mass import less, product, transposed_product
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import FAMILIES, Family, family
 from nivel.kernels.record.record import NONE, Record, record_at
@@ -39,7 +39,7 @@ from nivel.machine.core.orientation import matrix_from_euler_parameters
 from nivel.machine.core.placement import placement
 from nivel.machine.core.record import GROUND
 from nivel.machine.core.vectors import Array
-from nivel.native.function import stage
+from nivel.native.function import leaf, stage
 
 MOST = 4  # nodes of an element
 
@@ -87,10 +87,11 @@ def nearest_chart(near, psi):
     angle = np.sqrt(dot(psi, psi))
     if real(angle) > 1e-6:
         factor = 1.0 - 2.0 * np.pi / angle
-        here = less(psi, near)
-        there = factor * psi[0] - near[0], factor * psi[1] - near[1], factor * psi[2] - near[2]
+        here = minus(psi, near)
+        other = times(factor, psi)
+        there = minus(other, near)
         if real(dot(there, there)) < real(dot(here, here)):
-            psi[0], psi[1], psi[2] = factor * psi[0], factor * psi[1], factor * psi[2]
+            put(psi, 0, other)
 
 
 @stage
@@ -109,10 +110,8 @@ def find_turns(bodies, markers, index, n):
         for i in range(3):
             n[ElementRow.ASKED + 3 * a + i], n[ElementRow.FORCE + 3 * a + i] = 0.0, 0.0
         if real(n[ElementRow.DAMPING]) > 0.0:
-            relative = transposed_product(A, less(bodies.omega[markers.body[index[ElementRow.NODE + a]]], wr))
-            rate = inverse_tangent_product(psi, relative, 1.0)
-            for i in range(3):
-                n[ElementRow.RATE + 3 * a + i] = rate[i]
+            relative = seen(A, minus(bodies.omega[markers.body[index[ElementRow.NODE + a]]], wr))
+            put(n, ElementRow.RATE + 3 * a, inverse_tangent_product(psi, relative, 1.0))
 
 
 @stage
@@ -139,7 +138,7 @@ def along_line(place, index, slope, count):
 
 
 @stage
-def turned(a, b, psi, v):
+def rotated(a, b, psi, v):
     """exp(ψ̃) v = v + a ψ × v + b ψ × (ψ × v); with -a: exp(-ψ̃) v."""
     c = cross(psi, v)
     return sum_of(1.0, v, a, c, b, cross(psi, c))
@@ -151,38 +150,33 @@ def tangent_product(a, b, c, psi, v):
     return sum_of(a, v, -b, cross(psi, v), c * dot(psi, v), psi)
 
 
+@leaf
+def row_by(C, e):
+    """A row of a 6×6 matrix times a vector of six."""
+    return C[0] * e[0] + C[1] * e[1] + C[2] * e[2] + C[3] * e[3] + C[4] * e[4] + C[5] * e[5]
+
+
+@stage
+def six_by_six(C, e):
+    """C e of a matrix (36,) by rows, as a tuple."""
+    s0, s1, s2 = row_by(C, e), row_by(C[6:], e), row_by(C[12:], e)
+    return s0, s1, s2, row_by(C[18:], e), row_by(C[24:], e), row_by(C[30:], e)
+
+
 @stage
 def section_forces(n, first, strain, rate, weight, damping, control):
-    """Forces and moments of a section over the length `weight` for its six strains and their rates; adds what it stores and loses. Its
+    """Force and moment of a section over the length `weight` for its six strains and their rates; adds what it stores and loses. Its
     stiffness stands in n from `first` on."""
-    e0, e1, e2, e3, e4, e5 = strain
-    r0, r1, r2, r3, r4, r5 = rate
-    s0, s1, s2, s3, s4, s5 = 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0
-    stored, lost = 0.0 * e0, 0.0 * e0
+    C = n[first : first + 36]
+    s, v = six_by_six(C, strain), six_by_six(C, rate)
+    stored, lost = 0.0 * s[0], 0.0 * s[0]
     for i in range(6):
-        C = n[first + 6 * i : first + 6 * i + 6]
-        elastic = C[0] * e0 + C[1] * e1 + C[2] * e2 + C[3] * e3 + C[4] * e4 + C[5] * e5
-        viscous = damping * (C[0] * r0 + C[1] * r1 + C[2] * r2 + C[3] * r3 + C[4] * r4 + C[5] * r5)
-        e = e0 if i == 0 else e1 if i == 1 else e2 if i == 2 else e3 if i == 3 else e4 if i == 4 else e5
-        r = r0 if i == 0 else r1 if i == 1 else r2 if i == 2 else r3 if i == 3 else r4 if i == 4 else r5
-        stored += 0.5 * elastic * e
-        lost += viscous * r
-        total = weight * (elastic + viscous)
-        if i == 0:
-            s0 = total
-        elif i == 1:
-            s1 = total
-        elif i == 2:
-            s2 = total
-        elif i == 3:
-            s3 = total
-        elif i == 4:
-            s4 = total
-        else:
-            s5 = total
+        stored += 0.5 * s[i] * strain[i]
+        lost += damping * v[i] * rate[i]
     control.stored[0] += weight * stored
     control.power[1] += weight * lost
-    return s0, s1, s2, s3, s4, s5
+    f = weight * (s[0] + damping * v[0]), weight * (s[1] + damping * v[1]), weight * (s[2] + damping * v[2])
+    return f, (weight * (s[3] + damping * v[3]), weight * (s[4] + damping * v[4]), weight * (s[5] + damping * v[5]))
 
 
 @stage
@@ -195,33 +189,30 @@ def point_of_element(bodies, markers, index, n, q, control):
     square = dot(psi, psi)
     b, c, db, dc = turn_factors(square)
     a, da = 1.0 - square * c, -2.0 * c - square * dc
-    stretch = turned(-a, b, psi, transposed_product(Ar, along_line(markers.r, index, slope, count)))
+    stretch = rotated(-a, b, psi, seen(Ar, along_line(markers.r, index, slope, count)))
     kappa = tangent_product(a, b, c, psi, bend)
-    e0, e1, e2 = stretch[0] - unstrained[0], stretch[1] - unstrained[1], stretch[2] - unstrained[2]
-    e3, e4, e5 = kappa[0] - unstrained[3], kappa[1] - unstrained[4], kappa[2] - unstrained[5]
+    strain = minus(stretch, unstrained) + minus(kappa, unstrained[3:])
     weight, damping = q[WEIGHT], n[ElementRow.DAMPING]
-    r0, r1, r2, r3, r4, r5 = 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0
+    zero = 0.0 * strain[0]
+    rate = zero, zero, zero, zero, zero, zero
     if real(damping) > 0.0:
         turning, bending = (
             interpolated(n, shape, ElementRow.RATE, count),
             interpolated(n, slope, ElementRow.RATE, count),
         )
-        w = turned(-a, b, psi, transposed_product(Ar, wr))
+        w = rotated(-a, b, psi, seen(Ar, wr))
         t = tangent_product(a, b, c, psi, turning)
-        spin = w[0] + t[0], w[1] + t[1], w[2] + t[2]
-        moved = turned(-a, b, psi, transposed_product(Ar, along_line(markers.rdot, index, slope, count)))
+        spin = plus(w, t)
+        moved = rotated(-a, b, psi, seen(Ar, along_line(markers.rdot, index, slope, count)))
         g = cross(stretch, spin)
         k = tangent_product(a, b, c, psi, bending)
         # D(T ψ')·ψ̇
         along, across, both = dot(psi, turning), cross(psi, bend), dot(psi, bend)
         d = sum_of(da * along, bend, -db * along, across, -b, cross(turning, bend))
         f = sum_of(c * both, turning, c * dot(turning, bend) + dc * along * both, psi, 1.0, d)
-        r0, r1, r2 = moved[0] + g[0], moved[1] + g[1], moved[2] + g[2]
-        r3, r4, r5 = k[0] + f[0], k[1] + f[1], k[2] + f[2]
-    strain, rate = (e0, e1, e2, e3, e4, e5), (r0, r1, r2, r3, r4, r5)
-    s0, s1, s2, s3, s4, s5 = section_forces(n, ElementRow.STIFFNESS, strain, rate, weight, damping, control)
-    N, M = (s0, s1, s2), (s3, s4, s5)
-    force = product(Ar, turned(a, b, psi, N))
+        rate = plus(moved, g) + plus(k, f)
+    N, M = section_forces(n, ElementRow.STIFFNESS, strain, rate, weight, damping, control)
+    force = turned(Ar, rotated(a, b, psi, N))
     moment = cross(N, stretch)
     # what δψ and δψ' ask for: Tᵀ m + D(T ψ')ᵀ M and Tᵀ M
     along, across, both = dot(bend, M), dot(cross(psi, bend), M), dot(psi, bend)
@@ -233,7 +224,7 @@ def point_of_element(bodies, markers, index, n, q, control):
         for i in range(3):
             n[ElementRow.ASKED + 3 * k + i] += shape[k] * of_psi[i] + slope[k] * of_slope[i]
             n[ElementRow.FORCE + 3 * k + i] -= slope[k] * force[i]
-    return turned(a, b, psi, moment)
+    return rotated(a, b, psi, moment)
 
 
 @stage
@@ -250,46 +241,31 @@ def push_node(bodies, markers, m, force, torque):
 def element_forces(bodies, markers, index, n, control):
     """What an element stores and asks of its nodes, on their bodies; forces and torques on the nodes stay in n."""
     find_turns(bodies, markers, index, n)
-    m0, m1, m2 = 0.0 * n[0], 0.0 * n[0], 0.0 * n[0]
+    zero = 0.0 * n[0]
+    whole = zero, zero, zero
     for g in range(index[ElementRow.POINTS]):
-        m = point_of_element(
-            bodies, markers, index, n, n[ElementRow.POINT + WIDTH * g : ElementRow.POINT + WIDTH * (g + 1)], control
-        )
-        m0, m1, m2 = m0 + m[0], m1 + m[1], m2 + m[2]
+        q = n[ElementRow.POINT + WIDTH * g : ElementRow.POINT + WIDTH * (g + 1)]
+        whole = plus(whole, point_of_element(bodies, markers, index, n, q, control))
     r = index[ElementRow.REFERENCE]
-    t0, t1, t2 = product(markers.A[index[ElementRow.FRAME]], (m0, m1, m2))
+    whole = turned(markers.A[index[ElementRow.FRAME]], whole)
     for a in range(index[ElementRow.COUNT]):
         if a != r:
-            node, psi, torque = (
-                index[ElementRow.NODE + a],
-                n[ElementRow.PSI + 3 * a : ElementRow.PSI + 3 * a + 3],
-                n[ElementRow.TORQUE + 3 * a : ElementRow.TORQUE + 3 * a + 3],
-            )
-            asked = inverse_tangent_product(psi, n[ElementRow.ASKED + 3 * a : ElementRow.ASKED + 3 * a + 3], -1.0)
-            x, y, z = product(markers.A[node], asked)
-            torque[0], torque[1], torque[2] = -x, -y, -z
-            push_node(bodies, markers, node, n[ElementRow.FORCE + 3 * a : ElementRow.FORCE + 3 * a + 3], torque)
-            t0, t1, t2 = t0 - x, t1 - y, t2 - z
+            node, psi, asked = index[ElementRow.NODE + a], n[ElementRow.PSI + 3 * a :], n[ElementRow.ASKED + 3 * a :]
+            torque = turned(markers.A[node], inverse_tangent_product(psi, asked, -1.0))
+            put(n, ElementRow.TORQUE + 3 * a, opposite(torque))
+            push_node(bodies, markers, node, n[ElementRow.FORCE + 3 * a :], n[ElementRow.TORQUE + 3 * a :])
+            whole = minus(whole, torque)
     if r != MOST:
-        torque = n[ElementRow.TORQUE + 3 * r : ElementRow.TORQUE + 3 * r + 3]
-        torque[0], torque[1], torque[2] = -t0, -t1, -t2
-        push_node(
-            bodies,
-            markers,
-            index[ElementRow.NODE + r],
-            n[ElementRow.FORCE + 3 * r : ElementRow.FORCE + 3 * r + 3],
-            torque,
-        )
+        put(n, ElementRow.TORQUE + 3 * r, opposite(whole))
+        node = index[ElementRow.NODE + r]
+        push_node(bodies, markers, node, n[ElementRow.FORCE + 3 * r :], n[ElementRow.TORQUE + 3 * r :])
 
 
-@family
-def apply(machine, number, t):
-    """All elements."""
+@element
+def apply(machine, index, n, t):
+    """An element."""
     record = record_at(machine)
-    elements = record.elements
-    for k in range(elements.span[number, 0], elements.span[number, 1]):
-        element_forces(record.bodies, record.markers, elements.columns[k], elements.number[k], record.control)
-    return OK
+    element_forces(record.bodies, record.markers, index, n, record.control)
 
 
 @family
@@ -305,10 +281,8 @@ def apply_elastic(machine, number, t):
             kept = wrench[k - first]
             for a in range(index[ElementRow.COUNT]):
                 for i in range(3):
-                    kept[6 * a + i], kept[6 * a + 3 + i] = (
-                        n[ElementRow.FORCE + 3 * a + i].real,
-                        n[ElementRow.TORQUE + 3 * a + i].real,
-                    )
+                    kept[6 * a + i] = n[ElementRow.FORCE + 3 * a + i].real
+                    kept[6 * a + 3 + i] = n[ElementRow.TORQUE + 3 * a + i].real
     return OK
 
 
@@ -321,13 +295,8 @@ def hold(machine, number, t):
     for k in range(first, elements.span[number, 1]):
         index, kept = elements.columns[k], wrench[k - first]
         for a in range(index[ElementRow.COUNT]):
-            push_node(
-                record.bodies,
-                record.markers,
-                index[ElementRow.NODE + a],
-                kept[6 * a : 6 * a + 3],
-                kept[6 * a + 3 : 6 * a + 6],
-            )
+            node = index[ElementRow.NODE + a]
+            push_node(record.bodies, record.markers, node, kept[6 * a :], kept[6 * a + 3 :])
     return OK
 
 

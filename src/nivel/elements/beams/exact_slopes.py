@@ -23,14 +23,16 @@ from nivel.elements.beams.exact import (
     WIDTH,
     ElementRow,
     along_line,
+    rotated,
+    row_by,
+    six_by_six,
     sum_of,
     tangent_product,
-    turned,
 )
 from nivel.kernels.algebra.inverse_tangent import inverse_tangent_by, inverse_tangent_factor, slope_of_factor
 from nivel.kernels.algebra.relative_rotation import rotation_vector
 from nivel.kernels.algebra.spatial import cross, dot
-from nivel.kernels.bodies.shared_mass import less, product, transposed_product
+from nivel.kernels.algebra.vectors import minus, opposite, plus, put, seen, seen_flat, times, turned
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
@@ -76,25 +78,22 @@ def stiffness_of_point(own, n, q, stretched, psi, bend):
     square = dot(psi, psi)
     b, c, b1, c1, b2, c2 = series(square)
     a, a1, a2 = 1.0 - square * c, -2.0 * c - square * c1, -4.0 * c1 - square * c2
-    gamma = turned(-a, b, psi, stretched)
+    gamma = rotated(-a, b, psi, stretched)
     kappa = tangent_product(a, b, c, psi, bend)
     B, S = own.B, own.S
     both, across = dot(psi, bend), cross(psi, bend)
     for j in range(3):
         e = unit(j)
         t = tangent_product(a, b, c, psi, e)
-        along, shear = turned(-a, b, psi, e), cross(gamma, t)
+        along, shear = rotated(-a, b, psi, e), cross(gamma, t)
         d = sum_of(a1 * psi[j], bend, -b1 * psi[j], across, -b, cross(e, bend))
         d = sum_of(c * both, e, c * bend[j] + c1 * psi[j] * both, psi, 1.0, d)
         for i in range(3):
             B[i, j], B[i, 3 + j], B[i, 6 + j] = along[i], shear[i], 0.0
             B[3 + i, j], B[3 + i, 3 + j], B[3 + i, 6 + j] = 0.0, d[i], t[i]
-    e0, e1, e2 = gamma[0] - unstrained[0], gamma[1] - unstrained[1], gamma[2] - unstrained[2]
-    e3, e4, e5 = kappa[0] - unstrained[3], kappa[1] - unstrained[4], kappa[2] - unstrained[5]
-    f = own.local
+    s, f = six_by_six(n[ElementRow.STIFFNESS :], minus(gamma, unstrained) + minus(kappa, unstrained[3:])), own.local
     for i in range(6):
-        C = n[ElementRow.STIFFNESS + 6 * i : ElementRow.STIFFNESS + 6 * i + 6]
-        f[i] = weight * (C[0] * e0 + C[1] * e1 + C[2] * e2 + C[3] * e3 + C[4] * e4 + C[5] * e5)
+        f[i] = weight * s[i]
     N, M = (f[0], f[1], f[2]), (f[3], f[4], f[5])
     # material part: Bᵀ (w C) B, column by column
     for j in range(9):
@@ -119,7 +118,7 @@ def stiffness_of_point(own, n, q, stretched, psi, bend):
         e = unit(j)
         t = tangent_product(a, b, c, psi, e)
         # of N: force on y' turns with ψ, and Tᵀ (N × Qᵀ y') changes
-        y_psi = turned(a, b, psi, cross(t, N))
+        y_psi = rotated(a, b, psi, cross(t, N))
         m_psi = tangent_product(a, -b, c, psi, cross(N, cross(gamma, t)))
         turning = change_of_transposed(a1, b1, c1, b, c, psi, moment, j)
         # of M
@@ -135,7 +134,7 @@ def stiffness_of_point(own, n, q, stretched, psi, bend):
             S[3 + i, 3 + j] += m_psi[i] + turning[i] + own_part
     of_psi = sum_of(1.0, tangent_product(a, -b, c, psi, moment), -b, chi, c * nu, M)
     of_psi = sum_of(1.0, of_psi, outwards, psi, c * mu, bend)
-    return turned(a, b, psi, N), of_psi, tangent_product(a, -b, c, psi, M)
+    return rotated(a, b, psi, N), of_psi, tangent_product(a, -b, c, psi, M)
 
 
 @stage
@@ -159,12 +158,8 @@ def stiffness_of_element(own, markers, index, n):
     count, r = np.int64(index[ElementRow.COUNT]), np.int64(index[ElementRow.REFERENCE])
     Ar, k, P = markers.A[index[ElementRow.NODE + r]], own.k, own.P
     size = 6 * (count - 1)
-    for i in range(size):
-        P[i] = 0.0
-        for j in range(size):
-            k[i, j] = 0.0
+    P[:size], k[:size, :size], own.psi[:count] = 0.0, 0.0, 0.0
     for a in range(count):
-        own.psi[a, 0], own.psi[a, 1], own.psi[a, 2] = 0.0, 0.0, 0.0
         if a != r:
             rotation_vector(Ar, markers.A[index[ElementRow.NODE + a]], own.psi[a])
         square = dot(own.psi[a], own.psi[a])
@@ -172,13 +167,11 @@ def stiffness_of_element(own, markers, index, n):
     for g in range(index[ElementRow.POINTS]):
         q = n[ElementRow.POINT + WIDTH * g : ElementRow.POINT + WIDTH * (g + 1)]
         shape, slope = q[SHAPE : SHAPE + 4], q[SLOPE : SLOPE + 4]
-        p0, p1, p2, d0, d1, d2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        psi, bend = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
         for a in range(count):
-            psi = own.psi[a]
-            p0, p1, p2 = p0 + shape[a] * psi[0], p1 + shape[a] * psi[1], p2 + shape[a] * psi[2]
-            d0, d1, d2 = d0 + slope[a] * psi[0], d1 + slope[a] * psi[1], d2 + slope[a] * psi[2]
-        stretched = transposed_product(Ar, along_line(markers.r, index, slope, count))
-        force, of_psi, of_slope = stiffness_of_point(own, n, q, stretched, (p0, p1, p2), (d0, d1, d2))
+            psi, bend = plus(psi, times(shape[a], own.psi[a])), plus(bend, times(slope[a], own.psi[a]))
+        stretched = seen(Ar, along_line(markers.r, index, slope, count))
+        force, of_psi, of_slope = stiffness_of_point(own, n, q, stretched, psi, bend)
         S = own.S
         for a in range(count):
             if a == r:
@@ -225,22 +218,9 @@ def motion_of_nodes(record, unknown, markers, index, out):
         else:
             w = (A[0, axis - 3], A[1, axis - 3], A[2, axis - 3])
     for a in range(np.int64(index[ElementRow.COUNT])):
-        moved = (unknown[2] >> a) & 1
-        arm = less(markers.r[index[ElementRow.NODE + a]], bodies.R[b])
-        lever = cross(w, arm)
-        for i in range(3):
-            out[6 * a + i] = v[i] + lever[i] if moved == 1 else 0.0
-            out[6 * a + 3 + i] = w[i] if moved == 1 else 0.0
-
-
-@stage
-def across(J, v):
-    """Jᵀ v, or vᵀ J, of J (3, 3) row by row."""
-    return (
-        J[0] * v[0] + J[3] * v[1] + J[6] * v[2],
-        J[1] * v[0] + J[4] * v[1] + J[7] * v[2],
-        J[2] * v[0] + J[5] * v[1] + J[8] * v[2],
-    )
+        moved, arm = (unknown[2] >> a) & 1 == 1, minus(markers.r[index[ElementRow.NODE + a]], bodies.R[b])
+        put(out, 6 * a, plus(v, cross(w, arm)) if moved else (0.0, 0.0, 0.0))
+        put(out, 6 * a + 3, w if moved else (0.0, 0.0, 0.0))
 
 
 @stage
@@ -261,17 +241,17 @@ def see_from_ground(own, markers, index):
         for j in range(3):
             J[j], J[3 + j], J[6 + j] = inverse_tangent_by(eta, 0.5, psi, A[j])
         for c in range(size):
-            k[u, c], k[u + 1, c], k[u + 2, c] = product(Ar, (k[u, c], k[u + 1, c], k[u + 2, c]))
-            k[u + 3, c], k[u + 4, c], k[u + 5, c] = across(J, (k[u + 3, c], k[u + 4, c], k[u + 5, c]))
+            k[u, c], k[u + 1, c], k[u + 2, c] = turned(Ar, (k[u, c], k[u + 1, c], k[u + 2, c]))
+            k[u + 3, c], k[u + 4, c], k[u + 5, c] = seen_flat(J, (k[u + 3, c], k[u + 4, c], k[u + 5, c]))
         for j in range(3):
-            bent = product(A, change_of_inverse(eta, local[ETA_SLOPE + a], psi, P[u + 3 : u + 6], unit(j)))
+            bent = turned(A, change_of_inverse(eta, local[ETA_SLOPE + a], psi, P[u + 3 : u + 6], unit(j)))
             for i in range(3):
                 k[u + 3 + i, u + 3 + j] += bent[i]
     for i in range(size):
         for s in range(count - 1):
             row, J = k[i, 6 * s : 6 * s + 6], own.B[s]
-            row[0], row[1], row[2] = product(Ar, row[0:3])
-            row[3], row[4], row[5] = across(J, row[3:6])
+            row[0], row[1], row[2] = turned(Ar, row[0:3])
+            row[3], row[4], row[5] = seen_flat(J, row[3:6])
 
 
 @stage
@@ -284,15 +264,10 @@ def elastic_change(own, markers, index, e, twist, cq):
     for a in range(count):
         if a == r:
             continue
-        at, swing = (
-            6 * slot(a, r),
-            cross(tr, less(markers.r[index[ElementRow.NODE + a]], markers.r[index[ElementRow.NODE + r]])),
-        )
-        for i in range(3):
-            local[at + i] = twist[6 * a + i] - xr[i] - swing[i]
-            local[at + 3 + i] = twist[6 * a + 3 + i] - tr[i]
-    for i in range(6):
-        change[r, i] = 0.0
+        at, arm = 6 * slot(a, r), minus(markers.r[index[ElementRow.NODE + a]], markers.r[index[ElementRow.NODE + r]])
+        put(local, at, minus(minus(twist[6 * a :], xr), cross(tr, arm)))
+        put(local, at + 3, minus(twist[6 * a + 3 :], tr))
+    change[r, :6] = 0.0
     for a in range(count):
         if a == r:
             continue
@@ -303,18 +278,15 @@ def elastic_change(own, markers, index, e, twist, cq):
                 total += k[at + i, j] * local[j]
             local[18 + i] = total
         # the element resists with the opposite of the wrench on its nodes
-        f = -wrench[6 * a], -wrench[6 * a + 1], -wrench[6 * a + 2]
-        t = -wrench[6 * a + 3], -wrench[6 * a + 4], -wrench[6 * a + 5]
-        turning, spun = cross(tr, f), cross(twist[6 * a + 3 : 6 * a + 6], t)
-        arm = less(markers.r[index[ElementRow.NODE + a]], markers.r[index[ElementRow.NODE + r]])
-        df = local[18] + turning[0], local[19] + turning[1], local[20] + turning[2]
-        moved = cross(less(twist[6 * a : 6 * a + 3], xr), f)
-        lever = cross(arm, df)
-        for i in range(3):
-            dt = local[21 + i] + spun[i]
-            change[a, i], change[a, 3 + i] = cq * df[i], cq * dt
-            change[r, i] -= cq * df[i]
-            change[r, 3 + i] -= cq * (moved[i] + lever[i] + dt)
+        f, t = opposite(wrench[6 * a :]), opposite(wrench[6 * a + 3 :])
+        arm = minus(markers.r[index[ElementRow.NODE + a]], markers.r[index[ElementRow.NODE + r]])
+        df = plus(local[18:], cross(tr, f))
+        dt = plus(local[21:], cross(twist[6 * a + 3 :], t))
+        turning = plus(plus(cross(minus(twist[6 * a :], xr), f), cross(arm, df)), dt)
+        put(change[a], 0, times(cq, df))
+        put(change[a], 3, times(cq, dt))
+        put(change[r], 0, minus(change[r], times(cq, df)))
+        put(change[r], 3, minus(change[r, 3:], times(cq, turning)))
 
 
 @stage
@@ -322,12 +294,9 @@ def add_work(own, index, first, size, plain, e, twist, cq, out, at):
     """Add the work of own.change on the motions of the unknowns of element e to their rows of one column of `out`."""
     for a in range(np.int64(index[ElementRow.COUNT])):
         c = own.change[a]
-        f0, f1, f2, t0, t1, t2 = c[0], c[1], c[2], c[3], c[4], c[5]
         for i in range(size):
             if (own.unknown[first + i, 2] >> a) & 1 == 1:
-                row = own.twist[i, 6 * a : 6 * a + 6]
-                work = row[0] * f0 + row[1] * f1 + row[2] * f2 + row[3] * t0 + row[4] * t1 + row[5] * t2
-                out[own.place[at + i * size]] += work
+                out[own.place[at + i * size]] += row_by(own.twist[i, 6 * a :], c)
     if plain != NONE and cq != 0.0:
         t = own.wrench[e, 6 * plain + 3 : 6 * plain + 6]
         arm = cross(t, twist[6 * plain + 3 : 6 * plain + 6])
@@ -358,20 +327,15 @@ def add_inertial_change(record, index, pair, e, twist, turning, w, cv, cm):
         return
     J, Q = shared.moment[pair], shared.turn[pair]
     A, B = markers.A[shared.pair[pair, 2]], markers.A[shared.pair[pair, 3]]
-    wa, wb = (
-        transposed_product(A, bodies.omega[shared.pair[pair, 0]]),
-        transposed_product(B, bodies.omega[shared.pair[pair, 1]]),
-    )
+    wa, wb = seen(A, bodies.omega[shared.pair[pair, 0]]), seen(B, bodies.omega[shared.pair[pair, 1]])
     zero = (0.0, 0.0, 0.0)
     da, db = (w, zero) if turning == a else (zero, w)
-    ha, hb = product(J, less(wb, product(Q, wa))), transposed_product(J, less(wa, transposed_product(Q, wb)))
-    dha, dhb = product(J, less(db, product(Q, da))), transposed_product(J, less(da, transposed_product(Q, db)))
+    ha, hb = turned(J, minus(wb, turned(Q, wa))), seen(J, minus(wa, seen(Q, wb)))
+    dha, dhb = turned(J, minus(db, turned(Q, da))), seen(J, minus(da, seen(Q, db)))
     na = sum_of(cm, dha, cv, cross(da, ha), cv, cross(wa, dha))
     nb = sum_of(cm, dhb, cv, cross(db, hb), cv, cross(wb, dhb))
-    ga, gb = product(A, na), product(B, nb)
-    for i in range(3):
-        change[a, 3 + i] += ga[i]
-        change[b, 3 + i] += gb[i]
+    put(change[a], 3, plus(change[a, 3:], turned(A, na)))
+    put(change[b], 3, plus(change[b, 3:], turned(B, nb)))
 
 
 @stage
@@ -401,9 +365,7 @@ def add_element(machine, out, e, total, cq, cv, cm):
         if cq != 0.0:
             elastic_change(own, markers, index, e, twist, cq)
         else:
-            for a in range(4):
-                for i in range(6):
-                    own.change[a, i] = 0.0
+            own.change[:4, :6] = 0.0
         axis = np.int64(newton.place[j, 1])
         if plain != NONE and (cm != 0.0 or cv != 0.0):
             turns = newton.place[j, 1] != NONE
@@ -420,12 +382,12 @@ def add_plain_node(machine, out, k, total, cv, cm):
     own, newton, bodies = record.beams, record.newton, record.bodies
     b, first = own.plain[k, 0], np.int64(own.plain[k, 1])
     J, A = bodies.inertia_b[b], bodies.A[b]
-    omega = transposed_product(A, bodies.omega[b])
-    h = product(J, omega)
+    omega = seen(A, bodies.omega[b])
+    h = turned(J, omega)
     for i in range(3):
         out[np.int64(own.plain[k, 2 + i]) + i] += cm * bodies.mass[b]
         w = turned_by(newton, first + 3 + i, i, total)
-        dh = product(J, w)
+        dh = turned(J, w)
         n = sum_of(cm, dh, cv, cross(w, h), cv, cross(omega, dh))
         for row in range(3):
             out[np.int64(own.plain[k, 5 + row]) + 3 + i] += n[row]

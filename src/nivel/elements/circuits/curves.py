@@ -10,6 +10,7 @@ from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
 from nivel.elements.circuits.fluids import ATMOSPHERE
+from nivel.known import SystemBuilder
 from nivel.lazy import dataclass
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import Area, Numbers, Pressure, Volume
@@ -185,3 +186,10 @@ def hose_points(expansion: HoseExpansion | None, length: float) -> list[float]:
     pairs = zip(expansion.pressures, expansion.volumes, strict=True)
     points = [number for p, volume in pairs for number in (p + ATMOSPHERE, volume * length)]
     return [float(len(expansion.pressures)), *points]
+
+
+def held_curve(builder: SystemBuilder, curve: Table) -> int:
+    """A table with its end values beyond its ends."""
+    inner = curve.coefficients().tolist()
+    rows = [[curve.values[0], 0.0, 0.0, 0.0], *inner, [curve.values[-1], 0.0, 0.0, 0.0]]
+    return builder.functions.add_table([curve.times[0] - 1.0, *curve.times], np.array(rows))

@@ -13,9 +13,8 @@ from typing import ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component
-from nivel.elements.circuits.curves import Speeds, as_many, rising
+from nivel.elements.circuits.curves import Speeds, as_many, held_curve, rising
 from nivel.elements.circuits.kind import ComponentKind, Phase, called, slopes_of
-from nivel.elements.circuits.pump_control import held_table
 from nivel.elements.circuits.pumps import Pump, Speed, Torque
 from nivel.elements.circuits.rotary import SETTING, Inertia
 from nivel.elements.circuits.rotary import TORQUE as OF_TORQUE
@@ -30,6 +29,7 @@ from nivel.known import SystemBuilder
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import NotNegativeTorque, Share, Torques
 from nivel.machine.given import Field, OneRecord, Usual
+from nivel.machine.laws.table import Table
 from nivel.native.function import stage
 
 
@@ -178,7 +178,8 @@ def add_engine(builder: SystemBuilder, component: Engine) -> None:
         builder.note(coupled)
         driven += [output, builder.node(pump.ports["A"]), builder.node(pump.ports["B"])]
     curve = component.torque_curve
-    columns = [first, state, builder.function(component.speed), held_table(builder, curve.speeds, curve.torques)]
+    full_load = held_curve(builder, Table(curve.speeds, curve.torques, of="speed"))
+    columns = [first, state, builder.function(component.speed), full_load]
     columns += [builder.function(component.load), *driven, *[NONE] * (WIDE * MOST - len(driven))]
     numbers = [component.inertia, max(curve.torques), component.droop, component.drag]
     numbers += [number for pump in pumps for number in (pump.ratio, pump.displacement)]

@@ -7,20 +7,20 @@ as where two pumps share an engine. The setting ε follows its command c, cut to
 
     ε̈ = ω² (c - ε) - 2 ζ ω ε̇, or with a greatest speed r, ε̇ = r tanh(ω (c - ε)/r)
 
-With load sensing c is a state, as of `nivel.elements.circuits.rotary`, where g is the least of the error of the pressure, of what the
-greatest pressure leaves and of (λ - c)/END; without a frequency ε = c.
+Without a frequency ε = c. With load sensing c is a state that holds a margin above the sensed pressure:
+
+    ċ = g/√(1 + g²)/T        g = min(p_LS + margin - p_B, p_max - p_B)/range, or (λ - c)/END where that is less
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
-from nivel.elements.circuits.curves import Pressures, as_many, rising
+from nivel.elements.circuits.curves import Pressures, as_many, held_curve, rising
 from nivel.elements.circuits.kind import Phase, called, slopes_of
-from nivel.elements.circuits.rotary import END
 from nivel.elements.circuits.smooth import slope_of_step, step
 from nivel.elements.circuits.tangent import add_by_pressure
 from nivel.elements.rows import element
@@ -32,6 +32,7 @@ from nivel.known import HydraulicMotor, Pump, SystemBuilder
 from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import Numbers
 from nivel.machine.given import Field
+from nivel.machine.laws.table import Table
 from nivel.native.function import leaf, stage
 
 
@@ -48,6 +49,8 @@ class CutOffCurve(Checked):
             yield Problem(("settings",), "settings from 0 to 1 were expected")
 
 
+# share of the displacement over which a load-sensing pump comes to rest at its ends
+END = 0.05
 # columns of `columns`; output: setting; states of the setting, its speed, the command of load sensing; command; nodes A, B, LS, X; function
 # of the greatest torque; table of the greatest setting over pressure. NONE: without it
 OUTPUT, STATE, SPEED, SOUGHT, COMMAND, LOW, HIGH, SENSED, PILOT, TORQUE, CURVE = range(11)
@@ -130,6 +133,9 @@ def regulate(machine, index, n, t):
         g, _ = lacking_share(machine, index, n, t, command)
         room = n[GREATEST] - command if real(g) > 0.0 else command - n[LEAST]
         rate[index[SOUGHT]] += g / np.sqrt(1.0 + g * g) * (1.0 / n[TIME]) * step(room * (1.0 / END))
+    if own == NONE:
+        record.outputs.value[index[OUTPUT]] = command
+        return
     if own != index[SOUGHT]:
         omega = n[FREQUENCY]
         if index[SPEED] == NONE:
@@ -220,53 +226,32 @@ def add_slopes(machine, index, n, t):
 WITHOUT_CUT_OFF = 1e12  # Pa
 
 
-def _add_regulated(builder: SystemBuilder, component: Pump, output: int, ends: tuple[int, int]) -> None:
-    """The actuator of a pump, with its limits and load sensing."""
-    sensing, ports = component.margin is not None, component.ports
-    sought, command = NONE, NONE
-    if not sensing:
-        states = _actuator_states(builder, component)
+def add_setting(builder: SystemBuilder, component: Pump | HydraulicMotor, output: int, ends: tuple[int, int]) -> None:
+    """What sets the displacement: a command, an actuator, load sensing, limits."""
+    name, ports, omega = component.name, component.ports, 2.0 * math.pi * (component.frequency or 0.0)
+    margin, torque, curve, cut_off = (
+        getattr(component, key, None) for key in ("margin", "torque_limit", "cut_off_curve", "cut_off")
+    )
+
+    def state(word: str, words: str, units: str = "1", scale: float = 1.0) -> int:
+        return builder.own_state(StateFact(f"{name}.{word}", units, f"{words} of {name}", 0.0, scale))
+
+    own, speed, sought, command = NONE, NONE, NONE, NONE
+    if margin is not None and omega:
+        sought = state("sought_setting", "sought displacement")
+    if margin is not None or omega:
+        own = state("setting", "displacement")
+    if omega and component.rate_limit is None:
+        speed = state("setting_speed", "speed of the setting", "1/s", omega)
+    if margin is None:
         command = builder.function(component.setting)
-    elif component.frequency is None:
-        sought = _setting_state(builder, component)
-        states = [sought, NONE]
-    else:
-        words = f"sought displacement of {component.name}"
-        sought = builder.own_state(StateFact(f"{component.name}.sought_setting", "1", words, 0.0, 1.0))
-        states = _actuator_states(builder, component)
+    elif not omega:
+        sought = own
     felt = [builder.node(ports[port]) if port in ports else NONE for port in ("LS", "X")]
-    torque = NONE if component.torque_limit is None else builder.function(component.torque_limit)
-    curve = component.cut_off_curve
-    table = NONE if curve is None else held_table(builder, curve.pressures, curve.settings)
-    numbers = [component.displacement, *_actuator(component), *component.range_of_settings]
-    numbers += [component.margin or 0.0, component.control_range, component.response]
-    numbers.append(component.cut_off or WITHOUT_CUT_OFF)
-    columns = [output, *states, sought, command, *ends, *felt, torque, table]
-    builder.elements.add(regulate, columns, numbers)
-
-
-def _setting_state(builder: SystemBuilder, component: Pump | HydraulicMotor) -> int:
-    return builder.own_state(StateFact(f"{component.name}.setting", "1", f"displacement of {component.name}", 0.0, 1.0))
-
-
-def _actuator_states(builder: SystemBuilder, component: Pump | HydraulicMotor) -> list[int]:
-    """States of the setting and its speed; NONE for one of first order."""
-    state = _setting_state(builder, component)
-    if component.rate_limit is not None:
-        return [state, NONE]
-    words, scale = f"speed of the setting of {component.name}", 2.0 * math.pi * (component.frequency or 0.0)
-    return [state, builder.own_state(StateFact(f"{component.name}.setting_speed", "1/s", words, 0.0, scale))]
-
-
-def _actuator(component: Pump | HydraulicMotor) -> tuple[float, float, float]:
-    """FREQUENCY, DAMPING, RATE of `nivel.elements.circuits.pump_control`."""
-    return 2.0 * math.pi * (component.frequency or 0.0), component.damping_ratio, component.rate_limit or 0.0
-
-
-def held_table(builder: SystemBuilder, points: Sequence[float], values: Sequence[float]) -> int:
-    """A table of straight lines between points, constant outside."""
-    slopes = np.diff(values) / np.diff(points) if len(points) > 1 else np.zeros(0)
-    pieces = np.zeros((len(points) + 1, 4))
-    pieces[:, 0] = [values[0], *values]
-    pieces[1:-1, 1] = slopes
-    return builder.functions.add_table([points[0] - 1.0, *points], pieces)
+    limit = NONE if torque is None else builder.function(torque)
+    table = NONE if curve is None else held_curve(builder, Table(curve.pressures, curve.settings, of="pressure"))
+    numbers = [component.displacement, omega, component.damping_ratio, component.rate_limit or 0.0]
+    numbers += component.range_of_settings
+    if isinstance(component, Pump):
+        numbers += [margin or 0.0, component.control_range, component.response, cut_off or WITHOUT_CUT_OFF]
+    builder.elements.add(regulate, [output, own, speed, sought, command, *ends, *felt, limit, table], numbers)

@@ -11,17 +11,9 @@ from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Component, problem_of_share
 from nivel.elements.circuits.efficiency_maps import lose_by_map, map_tables
 from nivel.elements.circuits.kind import ComponentKind
-from nivel.elements.circuits.pump_control import (
-    WITHOUT_CUT_OFF,
-    CutOffCurve,
-    _actuator,
-    _actuator_states,
-    _add_regulated,
-    _setting_state,
-    regulate,
-)
+from nivel.elements.circuits.pump_control import CutOffCurve, add_setting, regulate
 from nivel.elements.circuits.restrictions import TRANSITION, add_flow, restrict
-from nivel.elements.circuits.rotary import SETTING, RotaryMachine, Setting, set_displacement, supply, turn
+from nivel.elements.circuits.rotary import SETTING, RotaryMachine, Setting, supply, turn
 from nivel.elements.circuits.symbol import Symbol, adjustable, circle, path, setting, varies
 from nivel.kernels.record.record import NONE
 from nivel.known import SystemBuilder
@@ -86,12 +78,6 @@ class Pump(RotaryMachine):
     cut_off: Maybe[ranges.Drop] = Field(default=None, description="load sensing: greatest pressure at B")
 
     @property
-    def is_regulated(self) -> bool:
-        """Whether an actuator or limits have a part in its setting, beside simple load sensing."""
-        limits = (self.frequency, self.torque_limit, self.cut_off_curve, self.least_setting)
-        return any(each is not None for each in limits) or self.greatest_setting < 1.0
-
-    @property
     def range_of_settings(self) -> tuple[float, float]:
         """Least and greatest setting."""
         least = self.least_setting
@@ -105,7 +91,9 @@ class Pump(RotaryMachine):
             yield Problem(
                 (), f"a pump needs a `speed`, the `coordinate` of a joint or the `engine` that turns it; {got}"
             )
-        if self.margin is None and self.is_regulated and self.frequency is None:
+        limits = (self.torque_limit, self.cut_off_curve, self.least_setting)
+        is_limited = any(each is not None for each in limits) or self.greatest_setting < 1.0
+        if self.margin is None and is_limited and self.frequency is None:
             yield Problem((), "`frequency` is missing: limits act on an actuator; write for example `frequency: 4 Hz`")
         if self.cut_off is not None and self.margin is None:
             told = "belongs to load sensing; a given setting falls along a `cut_off_curve`"
@@ -178,7 +166,7 @@ def add_machine(builder: SystemBuilder, component: Pump | HydraulicMotor) -> Non
         for port, quantity in (("B", "case_flow"), ("A", "case_flow_A")):
             if ports[port] != ports["L"]:
                 add_flow(builder, name, quantity, (ports[port], ports["L"]), [0.0, TRANSITION, component.case_leakage])
-    _add_setting(builder, component, first + SETTING, (a, b))
+    add_setting(builder, component, first + SETTING, (a, b))
 
 
 def _turning(builder: SystemBuilder, component: Pump | HydraulicMotor) -> tuple[int, int]:
@@ -197,23 +185,6 @@ def ripple(pistons: int | None) -> tuple[float, float]:
     if pistons is None:
         return 0.0, 0.0
     return 2.0 * pistons, 0.25 * math.pi / pistons * math.tan(0.25 * math.pi / pistons)
-
-
-def _add_setting(builder: SystemBuilder, component: Pump | HydraulicMotor, output: int, ends: tuple[int, int]) -> None:
-    if isinstance(component, Pump) and component.is_regulated:
-        _add_regulated(builder, component, output, ends)
-    elif component.frequency is not None:
-        numbers = [component.displacement, *_actuator(component), -1.0, 1.0]
-        states = _actuator_states(builder, component)
-        command = builder.function(component.setting)
-        columns = [output, *states, NONE, command, *ends, NONE, NONE, NONE, NONE]
-        builder.elements.add(regulate, columns, numbers)
-    elif isinstance(component, Pump) and component.margin is not None:
-        numbers = [component.margin, component.control_range, component.cut_off or WITHOUT_CUT_OFF, component.response]
-        columns = [output, _setting_state(builder, component), NONE, ends[1], builder.node(component.ports["LS"])]
-        builder.elements.add(set_displacement, columns, numbers)
-    else:
-        builder.elements.add(set_displacement, [output, NONE, builder.function(component.setting), NONE, NONE])
 
 
 def _displacement(data: Mapping[str, Any]) -> tuple[str, ...]:
@@ -260,7 +231,7 @@ def motor(data: Mapping[str, Any]) -> Symbol:
     return Symbol(body, 26.0, 24.0, {}, {"A": -26.0, "B": 26.0} | drain, "actuator", _displacement(data))
 
 
-OF_MACHINES = (set_displacement, turn, lose_by_map, regulate, restrict)
+OF_MACHINES = (turn, lose_by_map, regulate, restrict)
 KINDS = (
     ComponentKind(Pump, add_machine, OF_MACHINES, symbol=pump),
     ComponentKind(HydraulicMotor, add_machine, OF_MACHINES, symbol=motor),

@@ -23,7 +23,7 @@ from nivel.elements.circuits.curves import EfficiencyMap
 from nivel.elements.circuits.density import thickness
 from nivel.elements.circuits.kind import Phase, called, slopes_of
 from nivel.elements.circuits.ledger import DELIVERED, SUPPLIED, lose_between, transfer
-from nivel.elements.circuits.smooth import clipped, magnitude_within, sign_within, slope_of_step, step
+from nivel.elements.circuits.smooth import magnitude_within, sign_within
 from nivel.elements.circuits.tangent import add_by_pressure, add_flow_by_column, add_flow_by_pressure
 from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
@@ -77,6 +77,11 @@ class RotaryMachine(Component):
     )
 
     @property
+    def range_of_settings(self) -> tuple[float, float]:
+        """Least and greatest setting."""
+        return -1.0, 1.0
+
+    @property
     def losses(self) -> tuple[float, float]:
         """What is lost at the nominal point, as shares of D ω and of D Δp: of a pump Q = η D ω and T = D Δp/η."""
         return 1.0 - self.volumetric_efficiency, 1.0 / self.mechanical_efficiency - 1.0
@@ -125,37 +130,6 @@ FLOW, TORQUE, POWER, SETTING = 0, 1, 2, 3
 DISPLACEMENT, RATIO, LEAK, VISCOUS, DRY, PERIODS, RIPPLE = 0, 1, 2, 3, 4, 5, 6
 # speed [rad/s] and difference of pressure [Pa] within which signs are rounded
 SLOW, SMALL = 1.0, 1e5
-
-# settings: columns of `columns`; output: that of the machine; STATE: of load sensing, or NONE; nodes P and LS
-STATE, FUNCTION, HIGH, SENSED = 1, 2, 3, 4
-# columns of `number`: margin, range, greatest pressure [Pa], time [s]
-MARGIN, RANGE, CUT_OFF, TIME = 0, 1, 2, 3
-# share of the displacement over which a load-sensing pump comes to rest at its ends
-END = 0.05
-
-
-@called(Phase.POSITIONS, 3)
-@element
-def set_displacement(machine, index, n, t):
-    """Share ε of the displacement: a function, or a state that holds a margin above the sensed pressure,
-
-    ε̇ = g/√(1 + g²)/T, g = (p_LS + margin - p_P)/range, or (p_max - p_P)/range where that is less.
-    """
-    record = record_at(machine)
-    elements, circuit = record.elements, record.circuit
-    if index[STATE] == NONE:
-        record.outputs.value[index[OUTPUT]] = clipped(evaluate_function(machine, index[FUNCTION], t), -1.0)
-        return
-    own = elements.state[index[STATE]]
-    lacking = circuit.pressure[index[SENSED]] + n[MARGIN] - circuit.pressure[index[HIGH]]
-    spare = n[CUT_OFF] - circuit.pressure[index[HIGH]]
-    if real(spare) < real(lacking):
-        lacking = spare
-    g = lacking / n[RANGE]
-    rate = g / np.sqrt(1.0 + g * g) / n[TIME]
-    room = 1.0 - own if real(g) > 0.0 else own
-    elements.state_rate[index[STATE]] += rate * step(room / END)
-    record.outputs.value[index[OUTPUT]] = own
 
 
 @stage
@@ -212,29 +186,6 @@ def supply(machine, index, n, t):
     record.control.power[0] += power
     circuit.power[SUPPLIED] += power
     value[index[OUTPUT]], value[index[OUTPUT] + 1] = flow, power
-
-
-@slopes_of(set_displacement)
-@element
-def add_slopes_of_settings(machine, index, n, t):
-    """Slopes of the displacements that are states."""
-    record = record_at(machine)
-    elements, circuit = record.elements, record.circuit
-    tangent = circuit.tangent
-    if index[STATE] == NONE:
-        return
-    own, unknown = elements.state[index[STATE]], tangent.unknown[index[STATE]]
-    lacking = circuit.pressure[index[SENSED]] + n[MARGIN] - circuit.pressure[index[HIGH]]
-    spare = n[CUT_OFF] - circuit.pressure[index[HIGH]]
-    g = min(lacking, spare) / n[RANGE]
-    root = np.sqrt(1.0 + g * g)
-    room, sign = (1.0 - own, -1.0) if g > 0.0 else (own, 1.0)
-    row = tangent.slopes[unknown]
-    row[unknown] += g / root / n[TIME] * slope_of_step(room / END) * sign / END
-    slope = step(room / END) / (root * root * root * n[TIME] * n[RANGE])
-    add_by_pressure(circuit, row, index[HIGH], -slope)
-    if lacking <= spare:
-        add_by_pressure(circuit, row, index[SENSED], slope)
 
 
 @slopes_of(turn)

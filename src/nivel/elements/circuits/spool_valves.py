@@ -10,7 +10,7 @@ from pydantic import AfterValidator, BeforeValidator
 
 from nivel.elements.circuits import ranges, spools
 from nivel.elements.circuits.component import Component, problem_of_share
-from nivel.elements.circuits.curves import Curve
+from nivel.elements.circuits.curves import Curve, held_curve
 from nivel.elements.circuits.directional_valves import spool
 from nivel.elements.circuits.edges import MOST_EDGES, Edge, meter
 from nivel.elements.circuits.kind import ComponentKind
@@ -170,7 +170,7 @@ def _add_edge(builder: SystemBuilder, component: SpoolValve, pair: str, edge: Ed
     )
     density = builder.circuit.fluids[builder.circuit.nodes[component.ports[ports[0]]].fluid][4]
     drops, curves = conductances(component, edge, density)
-    tables = [spools.held_curve(builder, curve) for curve in curves]
+    tables = [held_curve(builder, curve) for curve in curves]
     force = 0.0
     if speed != NONE:
         builder.touch_state(speed)

@@ -24,7 +24,7 @@ from typing import Annotated
 
 import numpy as np
 
-from nivel.elements.circuits.curves import CurveOf, SomeCurve
+from nivel.elements.circuits.curves import CurveOf, SomeCurve, held_curve
 from nivel.elements.circuits.kind import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import clipped, magnitude_within, sign_within, step
 from nivel.elements.rows import element
@@ -265,10 +265,3 @@ def full_force(component: SpoolValve) -> float:
     assert component.solenoid is not None
     assert component.stroke is not None
     return component.solenoid.spring * component.stroke
-
-
-def held_curve(builder: SystemBuilder, curve: Table) -> int:
-    """A table with its end values beyond its ends."""
-    inner = curve.coefficients().tolist()
-    rows = [[curve.values[0], 0.0, 0.0, 0.0], *inner, [curve.values[-1], 0.0, 0.0, 0.0]]
-    return builder.functions.add_table([curve.times[0] - 1.0, *curve.times], np.array(rows))

@@ -9,6 +9,7 @@ are (place, gradients) of its first node, then of its second (Shabana, Yakoub 20
 
 from __future__ import annotations
 
+from nivel.kernels.algebra.vectors import minus, put, times
 from nivel.native.function import stage
 
 # columns of `columns`: markers of the node and of the tips of its gradients, of both nodes
@@ -21,9 +22,8 @@ def read_vectors(markers, index, n, width):
     """Vectors of an element and their rates; width : of them at a node. Forces start at zero."""
     for a in range(2):
         node = index[width * a]
-        for i in range(3):
-            n[VECTOR + 3 * width * a + i] = markers.r[node, i]
-            n[RATE + 3 * width * a + i] = markers.rdot[node, i]
+        put(n, VECTOR + 3 * width * a, markers.r[node])
+        put(n, RATE + 3 * width * a, markers.rdot[node])
         for j in range(1, width):
             tip, at = index[width * a + j], 3 * (width * a + j)
             for i in range(3):
@@ -62,10 +62,8 @@ def along_line(n, first, weights, width):
 
 
 @stage
-def add_along_line(n, weights, width, x, y, z):
-    """Subtract a force (x, y, z) on such a sum from the forces on the vectors: what is stored pulls back."""
+def add_along_line(n, weights, width, force):
+    """Subtract a force on such a sum from the forces on the vectors: what is stored pulls back."""
     for k in range(4):
         at = FORCE + 3 * (width * (k // 2) + k % 2)
-        n[at] -= weights[k] * x
-        n[at + 1] -= weights[k] * y
-        n[at + 2] -= weights[k] * z
+        put(n, at, minus(n[at:], times(weights[k], force)))

@@ -24,6 +24,12 @@ def times(s, x):
 
 
 @leaf
+def combined(a, x, b, y):
+    """a x + b y."""
+    return a * x[0] + b * y[0], a * x[1] + b * y[1], a * x[2] + b * y[2]
+
+
+@leaf
 def opposite(x):
     """-x."""
     return -x[0], -x[1], -x[2]

@@ -12,36 +12,15 @@ bodies in their own axes only: it is a metric on the group of motions, invariant
 from __future__ import annotations
 
 from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.algebra.vectors import minus, opposite, plus, seen, times, turned
 from nivel.kernels.record.record import record_at
 from nivel.native.function import stage
 
 
 @stage
-def transposed_product(A, v):
-    """Aᵀ v."""
-    return (
-        A[0, 0] * v[0] + A[1, 0] * v[1] + A[2, 0] * v[2],
-        A[0, 1] * v[0] + A[1, 1] * v[1] + A[2, 1] * v[2],
-        A[0, 2] * v[0] + A[1, 2] * v[1] + A[2, 2] * v[2],
-    )
-
-
-@stage
-def product(A, v):
-    """A v."""
-    return dot(A[0], v), dot(A[1], v), dot(A[2], v)
-
-
-@stage
-def less(a, b):
-    """a - b."""
-    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
-
-
-@stage
 def shared_momenta(J, Q, wa, wb):
     """(h_a, h_b) = (J (w_b - Q w_a), Jᵀ (w_a - Qᵀ w_b)), each in its own axes."""
-    return product(J, less(wb, product(Q, wa))), transposed_product(J, less(wa, transposed_product(Q, wb)))
+    return turned(J, minus(wb, turned(Q, wa))), seen(J, minus(wa, seen(Q, wb)))
 
 
 @stage
@@ -59,10 +38,9 @@ def acceleration_of_centre(bodies, b, x):
 @stage
 def add_to_wrench(A, c, out, force, rate, w, h):
     """Add a force at the mass centre, c from the origin, and the moment ḣ + ω̄ × h in axes A to `out`: (moment about the origin, force)."""
-    gyroscopic, lever = cross(w, h), cross(c, force)
-    n0, n1, n2 = rate[0] + gyroscopic[0], rate[1] + gyroscopic[1], rate[2] + gyroscopic[2]
+    lever, moment = cross(c, force), turned(A, plus(rate, cross(w, h)))
     for i in range(3):
-        out[i] += A[i, 0] * n0 + A[i, 1] * n1 + A[i, 2] * n2 + lever[i]
+        out[i] += moment[i] + lever[i]
         out[3 + i] += force[i]
 
 
@@ -75,14 +53,13 @@ def add_shared_inertia(machine):
         a, b, m = shared.pair[k, 0], shared.pair[k, 1], shared.mass[k]
         J, Q, xa, xb = shared.moment[k], shared.turn[k], own.acceleration[a], own.acceleration[b]
         ca, cb = acceleration_of_centre(bodies, a, xa), acceleration_of_centre(bodies, b, xb)
-        force = m * (cb[0] - ca[0]), m * (cb[1] - ca[1]), m * (cb[2] - ca[2])
-        back = -force[0], -force[1], -force[2]
+        force = times(m, minus(cb, ca))
         A, B = axes[shared.pair[k, 2]], axes[shared.pair[k, 3]]
-        wa, wb = transposed_product(A, bodies.omega[a]), transposed_product(B, bodies.omega[b])
+        wa, wb = seen(A, bodies.omega[a]), seen(B, bodies.omega[b])
         ha, hb = shared_momenta(J, Q, wa, wb)
-        ra, rb = shared_momenta(J, Q, transposed_product(A, xa), transposed_product(B, xb))
+        ra, rb = shared_momenta(J, Q, seen(A, xa), seen(B, xb))
         add_to_wrench(A, bodies.c[a], own.wrench[a], force, ra, wa, ha)
-        add_to_wrench(B, bodies.c[b], own.wrench[b], back, rb, wb, hb)
+        add_to_wrench(B, bodies.c[b], own.wrench[b], opposite(force), rb, wb, hb)
 
 
 @stage
@@ -95,6 +72,6 @@ def shared_kinetic_energy(bodies, markers, shared, k):
         apart = bodies.Rdot[b, i] + cb[i] - bodies.Rdot[a, i] - ca[i]
         square += apart * apart
     A, B = markers.A[shared.pair[k, 2]], markers.A[shared.pair[k, 3]]
-    wa, wb = transposed_product(A, bodies.omega[a]), transposed_product(B, bodies.omega[b])
+    wa, wb = seen(A, bodies.omega[a]), seen(B, bodies.omega[b])
     ha, hb = shared_momenta(shared.moment[k], shared.turn[k], wa, wb)
     return 0.5 * (dot(wa, ha) + dot(wb, hb) - shared.mass[k] * square)

@@ -20,6 +20,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.algebra.analytic import absolute, maximum, real, tanh
+from nivel.kernels.algebra.spatial import cross
+from nivel.kernels.algebra.vectors import minus, plus, seen, times
 from nivel.kernels.bodies.patch_coordinate import KEPT, PROPOSED, RESTING, RESTS
 from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import BRISTLE_TOO_FAST, FRICTION_DIVERGES, OK
@@ -229,30 +231,19 @@ def normal_load(machine, k):
     load = n[LOAD]
     if joint == NONE:
         return load
-    f0, f1, f2, m0, m1, m2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    zero = 0.0 * markers.r[0, 0]
+    F, M = (zero, zero, zero), (zero, zero, zero)
     for row in range(joints.rows[joint, 0], joints.rows[joint, 1]):
         J, lam = constraints.J[joints.part[row]], constraints.lam[row]
-        f0 += lam * J[0]
-        f1 += lam * J[1]
-        f2 += lam * J[2]
-        m0 += lam * J[3]
-        m1 += lam * J[4]
-        m2 += lam * J[5]
+        F, M = plus(F, times(lam, J)), plus(M, times(lam, J[3:]))
     # the moment about the bearing: M + (r_first - r_bearing) × F
-    r, b = markers.r[joints.first_marker[joint]], markers.r[friction.columns[k, BEARING]]
-    d0, d1, d2 = r[0] - b[0], r[1] - b[1], r[2] - b[2]
-    m0, m1, m2 = m0 + d1 * f2 - d2 * f1, m1 + d2 * f0 - d0 * f2, m2 + d0 * f1 - d1 * f0
+    arm = minus(markers.r[joints.first_marker[joint]], markers.r[friction.columns[k, BEARING]])
     A = markers.A[friction.columns[k, FRAME]]
-    fx = A[0, 0] * f0 + A[1, 0] * f1 + A[2, 0] * f2
-    fy = A[0, 1] * f0 + A[1, 1] * f1 + A[2, 1] * f2
-    fz = A[0, 2] * f0 + A[1, 2] * f1 + A[2, 2] * f2
-    mx = A[0, 0] * m0 + A[1, 0] * m1 + A[2, 0] * m2
-    my = A[0, 1] * m0 + A[1, 1] * m1 + A[2, 1] * m2
-    mz = A[0, 2] * m0 + A[1, 2] * m1 + A[2, 2] * m2
-    load += np.sqrt(fx * fx + fy * fy) + n[MOMENT_ARM] * np.sqrt(mx * mx + my * my)
+    f, m = seen(A, F), seen(A, plus(M, cross(arm, F)))
+    load += np.sqrt(f[0] * f[0] + f[1] * f[1]) + n[MOMENT_ARM] * np.sqrt(m[0] * m[0] + m[1] * m[1])
     if friction.columns[k, ROTATES] == 1:
-        return load + n[COLLAR] * absolute(fz)
-    return load + n[SPIN_ARM] * absolute(mz)
+        return load + n[COLLAR] * absolute(f[2])
+    return load + n[SPIN_ARM] * absolute(m[2])
 
 
 @stage

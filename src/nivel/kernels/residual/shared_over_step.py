@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.bodies.shared_mass import product, shared_momenta, transposed_product
+from nivel.kernels.algebra.vectors import seen, turned
+from nivel.kernels.bodies.shared_mass import shared_momenta
 from nivel.kernels.record.record import record_at
 from nivel.native.function import stage
 
@@ -22,9 +23,9 @@ def begin_shared_interval(machine):
     bodies, shared, axes, start = record.bodies, record.shared, record.markers.A, record.residual.interval.start
     for k in range(shared.pair.shape[0]):
         a, b, A, B = shared.pair[k, 0], shared.pair[k, 1], axes[shared.pair[k, 2]], axes[shared.pair[k, 3]]
-        wa, wb = transposed_product(A, bodies.omega[a]), transposed_product(B, bodies.omega[b])
+        wa, wb = seen(A, bodies.omega[a]), seen(B, bodies.omega[b])
         ha, hb = shared_momenta(shared.moment[k], shared.turn[k], wa, wb)
-        ga, gb = product(A, ha), product(B, hb)
+        ga, gb = turned(A, ha), turned(B, hb)
         for i in range(3):
             start[a, 6 + i] += ga[i]
             start[b, 6 + i] += gb[i]
@@ -43,10 +44,10 @@ def change_shared_momenta(machine, rates, h):
     for k in range(shared.pair.shape[0]):
         a, b, m, n = shared.pair[k, 0], shared.pair[k, 1], shared.pair[k, 2], shared.pair[k, 3]
         va, vb = rates + 6 * np.int64(a) + 3, rates + 6 * np.int64(b) + 3
-        wa = transposed_product(markers.frame_b[m], y[va : va + 3])
-        wb = transposed_product(markers.frame_b[n], y[vb : vb + 3])
+        wa = seen(markers.frame_b[m], y[va : va + 3])
+        wb = seen(markers.frame_b[n], y[vb : vb + 3])
         ha, hb = shared_momenta(shared.moment[k], shared.turn[k], wa, wb)
-        ga, gb = product(markers.A[m], ha), product(markers.A[n], hb)
+        ga, gb = turned(markers.A[m], ha), turned(markers.A[n], hb)
         for i in range(3):
             x[a, i] += ga[i] / h
             x[b, i] += gb[i] / h

@@ -189,11 +189,11 @@ def _of(plan: Plan, machine: MachineRecord) -> Plan:
 
 
 def resampled(plan: Plan) -> Iterator[Plan]:
-    """The plan with samples of the waves in lines at other times, closer or, where these are too many, farther apart: what a wave loses
+    """The plan with samples of the waves in lines at other times, farther apart or, where these are too few, closer: what a wave loses
     between two samples is an error too. None where no line is a delay."""
     machine = plan.machine
     if any(each.type == "line" and each.model == "delay" for each in machine.hydraulics):
-        for share in (1.0 / FINER, FINER):
+        for share in (FINER, 1.0 / FINER):
             lines = [
                 each.replace(sample_time=share * each.sample_time) if each.type == "line" else each
                 for each in machine.hydraulics
@@ -261,7 +261,7 @@ class SecondRun:
         for plan in self._plans:
             try:
                 return prepare(plan.methods)
-            except ModelError:  # more samples than are kept
+            except ModelError:  # fewer samples than a line needs, or more than are kept
                 continue
         return prepare(self._plan.methods)
 

@@ -21,7 +21,7 @@ from nivel.elements.beams.sections import Material as BeamMaterial
 from nivel.elements.contacts.contact import Material
 from nivel.elements.forces import FORCES
 from nivel.errors import ModelError
-from nivel.machine.core.between import GlobalPoint
+from nivel.machine.core.element import GlobalPoint
 
 LINE = {"markers": ("tip", "eye")}
 POINTS = {"bodies": ("rod", "crank"), "points": ((0, 0, 0), (1, 0, 0))}

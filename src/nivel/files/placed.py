@@ -12,7 +12,7 @@ from nivel.files.placed_bodies import placed_beam, placed_body, placed_joint
 from nivel.files.placed_forces import placed_ends, placed_force
 from nivel.files.placement import AXIAL_Z, POLAR_Z, Placement, Scene
 from nivel.files.substitution import NotRepresentableError, negative
-from nivel.machine.core.between import Ends
+from nivel.machine.core.element import Ends
 from nivel.machine.core.record import Record, entry
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table
 from nivel.machine.signals.input import State

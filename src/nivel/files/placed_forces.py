@@ -20,8 +20,7 @@ from nivel.elements.forces.springs import JointSpringDamper, SpringDamper, Three
 from nivel.elements.forces.tyre import Tyre
 from nivel.files.placement import AXIAL_Z, POLAR_Z, Scene, by_rules
 from nivel.files.substitution import Linear, NotRepresentableError, mixed, negative, substituted
-from nivel.machine.core.between import Between, BetweenMany, Ends
-from nivel.machine.core.element import ForceElement
+from nivel.machine.core.element import Between, BetweenMany, Ends, ForceElement
 from nivel.machine.core.record import Record
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table, TimeFunction
 

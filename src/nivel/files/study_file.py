@@ -17,8 +17,7 @@ from nivel.files.overrides import override
 from nivel.files.sources import Sources, beside
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.lazy import dataclass
-from nivel.machine.core.checked import without_problems
-from nivel.machine.core.record import Record, field_words
+from nivel.machine.core.record import Record, field_words, without_problems
 from nivel.machine.settings.analyses import SETTINGS
 from nivel.machine.study.parameter import OUTPUTS, PARAMETERS
 from nivel.machine.study.study_record import StudyRecord

@@ -29,12 +29,11 @@ from nivel.machine.bodies.point_masses import problems_of_points
 from nivel.machine.bodies.shape import Shape, Standing
 from nivel.machine.bodies.touching import Touching
 from nivel.machine.control.order import problems_of_control
-from nivel.machine.core.checked import Checked, Problem, lines_of
 from nivel.machine.core.index import Index
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.orientation import matrix_from_euler_parameters
 from nivel.machine.core.placement import placement
-from nivel.machine.core.record import entry, restated
+from nivel.machine.core.record import Checked, Problem, entry, lines_of, restated
 from nivel.machine.given import GRAVITY, SIZE, Field, ManyNames, ManyRecords, OneRecord, Usual
 from nivel.machine.laws.functions import MachineFunction, functions_of
 from nivel.machine.settings.run import AssemblySettings, SimulationSettings

@@ -15,7 +15,7 @@ from nivel.elements.joints.joint import Joint
 from nivel.errors import Fault, ModelError, gathered, located, refuse
 from nivel.flexible.body.body import Interface
 from nivel.lazy import dataclass, field
-from nivel.machine.core.between import End, GlobalPoint
+from nivel.machine.core.element import End, GlobalPoint
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.placement import frame_from_axes, marker_frame
 from nivel.machine.core.vectors import cross

@@ -62,7 +62,7 @@ from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Box, Ellipsoid, Extrusion, Mesh, Shape, Sphere, Tube, digits_of
 from nivel.machine.bodies.solids import box_size, length, mesh_surface
 from nivel.machine.bodies.surface import surface_text
-from nivel.machine.core.between import Between, BetweenMarkers
+from nivel.machine.core.element import Between, BetweenMarkers
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import find
 from nivel.system.builder import SystemBuilder

@@ -11,9 +11,8 @@ from pydantic import BeforeValidator, model_validator
 
 from nivel.elements.beams import sections
 from nivel.elements.beams.line import Line, NoCurveError, arc, axes_along, smooth, straight
-from nivel.machine.core.axes import no_direction
-from nivel.machine.core.checked import Checked, Place, Problem, superfluous
-from nivel.machine.core.record import GROUND, Name
+from nivel.machine.core.placement import no_direction
+from nivel.machine.core.record import GROUND, Checked, Name, Place, Problem, superfluous
 from nivel.machine.core.vectors import Array
 from nivel.machine.given import Field, Given, ManyPlaces, Maybe, OneNumber, OneRecord, TwoNumbers
 from nivel.machine.units.quantity import (

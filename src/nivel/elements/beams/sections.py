@@ -14,8 +14,8 @@ import numpy as np
 from pydantic import BeforeValidator
 
 from nivel.lazy import dataclass
-from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import SectionLength
+from nivel.machine.core.record import Checked, Problem
 from nivel.machine.core.vectors import Array
 from nivel.machine.given import DENSITY, Field, Maybe, OneNumber, ThreeNumbers, TwoNumbers
 from nivel.machine.units.quantity import Density, Length, Quantity, Scalar, listed

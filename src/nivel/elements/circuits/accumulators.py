@@ -48,10 +48,9 @@ from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.record import record_at
 from nivel.known import Node, Swept, SystemBuilder
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Exponent
 from nivel.machine.core.coefficient import Volume as VolumeSize
-from nivel.machine.core.record import Name, entry
+from nivel.machine.core.record import Name, Problem, entry, superfluous
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.quantity import Duration
 from nivel.native.function import leaf

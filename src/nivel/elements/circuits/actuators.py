@@ -18,9 +18,9 @@ from nivel.elements.circuits.poppets import lift
 from nivel.elements.circuits.restrictions import CUSHION, TRANSITION, add_flow, rated, restrict
 from nivel.elements.circuits.symbol import Symbol, path
 from nivel.known import SystemBuilder
-from nivel.machine.core.between import Ends
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Displacement, Leakage, Share, Volume
+from nivel.machine.core.element import Ends
+from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord, Usual
 from nivel.machine.units.quantity import Angle, PositiveLength, Quantity, listed
 from nivel.machine.uses.coordinate_reference import CoordinateReference

@@ -15,8 +15,8 @@ from nivel.elements.states import Coupled
 from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.record.record import NONE
 from nivel.known import Node, SystemBuilder
-from nivel.machine.core.between import Ends
 from nivel.machine.core.coefficient import Restitution, ThermalConductance
+from nivel.machine.core.element import Ends
 from nivel.machine.core.record import Name, entry
 from nivel.machine.given import Field, Maybe, OneNumber, Usual
 from nivel.machine.units.quantity import Quantity

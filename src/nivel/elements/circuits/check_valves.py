@@ -16,10 +16,9 @@ from nivel.elements.circuits.nodes import inner_nodes
 from nivel.elements.circuits.restrictions import TRANSITION, add_flow
 from nivel.elements.circuits.symbol import Symbol, arrow, check_at, circle, in_bar, moved, path
 from nivel.known import SystemBuilder
-from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Leakage, PositiveNumber, Truth
 from nivel.machine.core.element import Acts, Inequalities
-from nivel.machine.core.record import entry
+from nivel.machine.core.record import Problem, entry
 from nivel.machine.given import Field, Maybe
 
 

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final
 from pydantic import BeforeValidator, WithJsonSchema
 
 from nivel.elements.circuits import ranges
-from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import Share, SonicConductance
 from nivel.machine.core.element import Inequalities
-from nivel.machine.core.record import Name, entry, unknown_word
+from nivel.machine.core.record import Checked, Name, Problem, entry, superfluous, unknown_word
 from nivel.machine.given import Field, Maybe, Usual
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import fault, shown

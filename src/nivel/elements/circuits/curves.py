@@ -12,8 +12,8 @@ from pydantic_core import CoreSchema, core_schema
 from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.known import SystemBuilder
 from nivel.lazy import dataclass
-from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import Area, Numbers, Pressure, Volume
+from nivel.machine.core.record import Checked, Problem
 from nivel.machine.given import Field, Given, ManyNumbers, OneNumber
 from nivel.machine.laws.table import Table, read_table
 from nivel.machine.units import dimension

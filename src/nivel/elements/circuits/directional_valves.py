@@ -23,9 +23,8 @@ from nivel.kernels.algebra.analytic import tanh
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.record import NONE, record_at
 from nivel.lazy import replace
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Leakage, PositiveNumber, Share
-from nivel.machine.core.record import entry
+from nivel.machine.core.record import Problem, entry, superfluous
 from nivel.machine.given import Field, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Quantity, Rate, fault

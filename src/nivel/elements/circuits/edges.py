@@ -30,8 +30,8 @@ from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.function import table_value
 from nivel.kernels.record.record import NONE, record_at
-from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import Leakage, Share
+from nivel.machine.core.record import Checked, Problem, superfluous
 from nivel.machine.given import Field, Given, ManyNumbers, ManyRecords, Maybe, OneNumber
 from nivel.machine.laws.table import Table
 from nivel.machine.units.quantity import Angle, PositiveLength, Quantity, Whole, listed

@@ -25,8 +25,8 @@ from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.record import record_at
 from nivel.known import SystemBuilder
-from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import NotNegativePressure, Share, SonicConductance
+from nivel.machine.core.record import Problem
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber
 from nivel.machine.units.quantity import Quantity, listed
 from nivel.native.function import leaf

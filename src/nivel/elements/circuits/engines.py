@@ -26,8 +26,8 @@ from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
-from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import NotNegativeTorque, Share, Torques
+from nivel.machine.core.record import Checked, Problem
 from nivel.machine.given import Field, OneRecord, Usual
 from nivel.machine.laws.table import Table
 from nivel.native.function import stage

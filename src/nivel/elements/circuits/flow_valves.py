@@ -13,9 +13,8 @@ from nivel.elements.circuits.nodes import inner_nodes
 from nivel.elements.circuits.restrictions import GIVEN, add_flow, rated
 from nivel.elements.circuits.symbol import SPRING, Symbol, adjustable, check_at, in_bar, letters, moved, path, varies
 from nivel.known import SystemBuilder
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Leakage, Pressure, Share, Truth
-from nivel.machine.core.record import entry
+from nivel.machine.core.record import Problem, entry, superfluous
 from nivel.machine.given import Field
 from nivel.machine.laws.time_function import OneFunction, varying
 

@@ -21,7 +21,6 @@ from pydantic_core import CoreSchema
 
 from nivel.elements.circuits import ranges
 from nivel.lazy import dataclass, fields, replace
-from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import (
     Exponent,
     HeatCapacity,
@@ -32,7 +31,7 @@ from nivel.machine.core.coefficient import (
     Truth,
     Viscosity,
 )
-from nivel.machine.core.record import Name, entry
+from nivel.machine.core.record import Checked, Name, Problem, entry, superfluous
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.units.quantity import Density, Quantity
 

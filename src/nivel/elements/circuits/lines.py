@@ -46,9 +46,8 @@ from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.record import record_at
 from nivel.known import Node, Swept, SystemBuilder
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import NotNegativeNumber, Truth
-from nivel.machine.core.record import Name, entry
+from nivel.machine.core.record import Name, Problem, entry, superfluous
 from nivel.machine.given import Field, Maybe, OneRecord
 from nivel.machine.units.quantity import Duration, Whole
 

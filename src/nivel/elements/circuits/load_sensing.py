@@ -27,9 +27,8 @@ from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import Swept, SystemBuilder
-from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Share
-from nivel.machine.core.record import Name
+from nivel.machine.core.record import Name, Problem
 from nivel.machine.given import Field, ManyNames
 from nivel.machine.units.quantity import Duration, listed
 from nivel.native.function import stage

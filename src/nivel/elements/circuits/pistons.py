@@ -23,8 +23,8 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
-from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import Damping, NotNegativeForce, NotNegativeNumber, PositiveSpeed
+from nivel.machine.core.record import Checked, Problem
 from nivel.machine.given import Field, OneNumber
 from nivel.machine.units.quantity import Quantity
 from nivel.native.function import leaf

@@ -13,10 +13,9 @@ from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.restrictions import add_flow, rated
 from nivel.elements.circuits.symbol import BAR, Symbol, adjustable, check_at, in_bar, path, square, varies
 from nivel.known import SystemBuilder
-from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Leakage, Share, Truth
 from nivel.machine.core.element import Inequalities
-from nivel.machine.core.record import entry
+from nivel.machine.core.record import Problem, entry
 from nivel.machine.given import Field, Maybe
 
 

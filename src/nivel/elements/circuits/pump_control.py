@@ -29,8 +29,8 @@ from nivel.kernels.algebra.analytic import real, tanh
 from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import HydraulicMotor, Pump, SystemBuilder
-from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import Numbers
+from nivel.machine.core.record import Checked, Problem
 from nivel.machine.given import Field
 from nivel.machine.laws.table import Table
 from nivel.native.function import leaf, stage

@@ -17,9 +17,8 @@ from nivel.elements.circuits.rotary import SETTING, RotaryMachine, Setting, supp
 from nivel.elements.circuits.symbol import Symbol, adjustable, circle, path, setting, varies
 from nivel.kernels.record.record import NONE
 from nivel.known import SystemBuilder
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Displacement, Share
-from nivel.machine.core.record import Name
+from nivel.machine.core.record import Name, Problem, superfluous
 from nivel.machine.given import Field, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.formula import linear

@@ -29,8 +29,8 @@ from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import Node, SystemBuilder
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Leakage, Share
+from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.native.function import leaf, stage

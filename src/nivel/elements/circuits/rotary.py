@@ -30,8 +30,8 @@ from nivel.kernels.algebra.analytic import real
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.record import NONE, record_at
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Displacement, Frequency, Leakage, PositiveNumber, Share
+from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.given import Field, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Quantity, Rate, Whole

@@ -16,10 +16,9 @@ from nivel.elements.circuits.restrictions import BAND, EDGE, MIDDLE, add_flow, r
 from nivel.elements.circuits.symbol import Symbol, arrow, check_at, in_bar, moved, path
 from nivel.known import SystemBuilder
 from nivel.lazy import replace
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Leakage, PositiveNumber
 from nivel.machine.core.coefficient import Share as Proportion
-from nivel.machine.core.record import entry
+from nivel.machine.core.record import Problem, entry, superfluous
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import Quantity

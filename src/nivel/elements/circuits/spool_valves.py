@@ -17,9 +17,8 @@ from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.symbol import Symbol
 from nivel.kernels.record.record import NONE
 from nivel.known import SystemBuilder
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import NotNegativeNumber, PositiveNumber
-from nivel.machine.core.record import entry
+from nivel.machine.core.record import Problem, entry, superfluous
 from nivel.machine.given import Field, Given, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import OneFunction, varying

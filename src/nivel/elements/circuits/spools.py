@@ -33,8 +33,8 @@ from nivel.kernels.algebra.analytic import real, tanh
 from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SpoolValve, SystemBuilder, TimeFunction
-from nivel.machine.core.checked import Checked
 from nivel.machine.core.coefficient import Frequency, NotNegativeDuration, NotNegativeForce, PositiveNumber, Truth
+from nivel.machine.core.record import Checked
 from nivel.machine.given import Field, OneNumber
 from nivel.machine.laws.table import Table
 from nivel.machine.units.quantity import Duration, Quantity

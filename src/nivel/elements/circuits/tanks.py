@@ -32,9 +32,8 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import Swept, SystemBuilder
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Area, Exponent, ThermalConductance, Truth
-from nivel.machine.core.record import Name
+from nivel.machine.core.record import Name, Problem, superfluous
 from nivel.machine.given import Field, Maybe, OneRecord
 from nivel.machine.units.quantity import PositiveLength
 

@@ -30,9 +30,8 @@ from nivel.elements.rows import element
 from nivel.elements.states import StateFact
 from nivel.kernels.record.record import record_at
 from nivel.known import Node, Swept, SystemBuilder
-from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import NotNegativeNumber
-from nivel.machine.core.record import Name, entry
+from nivel.machine.core.record import Name, Problem, entry
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.quantity import Whole
 

@@ -9,7 +9,6 @@ from pydantic import BeforeValidator
 
 from nivel.elements.contacts.height_field import HeightField
 from nivel.elements.output import Output, of_force
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import (
     DampingPerLoad,
     Exponent,
@@ -24,7 +23,7 @@ from nivel.machine.core.coefficient import (
 )
 from nivel.machine.core.element import Acts, ForceElement, Holds, Inequalities
 from nivel.machine.core.marker import ManyMarkers, MarkerPlace
-from nivel.machine.core.record import GROUND, BodyName, Record
+from nivel.machine.core.record import GROUND, BodyName, Problem, Record, superfluous
 from nivel.machine.given import Field, Given, ManyNames, Maybe, OneRecord, TwoNames, TwoNumbers, TwoRecords
 from nivel.machine.laws.time_function import ContactForce, SurfaceSpin, SurfaceVelocity, ThreeFunctions
 from nivel.machine.power_stiffness import PowerStiffness

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pydantic import BeforeValidator, ValidationInfo
 
 from nivel.machine.bodies.surface import Triangles
-from nivel.machine.core.checked import Checked, Problem, superfluous
+from nivel.machine.core.record import Checked, Problem, superfluous
 from nivel.machine.given import Field, ManyRows, Maybe, TwoNumbers
 from nivel.machine.laws.time_function import check_varying
 from nivel.machine.units import tree

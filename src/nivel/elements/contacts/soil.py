@@ -23,11 +23,10 @@ from nivel.kernels.core.block import Handle
 from nivel.kernels.elements.soil import Cells, address_of
 from nivel.known import SystemBuilder
 from nivel.machine.control.part import UnitFacts, UnitOutput
-from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import NotNegativePressure, PositiveNumber
 from nivel.machine.core.element import ForceElement
 from nivel.machine.core.marker import MarkerPlace
-from nivel.machine.core.record import GROUND
+from nivel.machine.core.record import GROUND, Checked, Problem
 from nivel.machine.given import Field, OneNumber, OneRecord
 from nivel.machine.units.formula import linear
 from nivel.machine.units.quantity import Duration, PositiveLength, Quantity

@@ -12,7 +12,7 @@ from pydantic import BeforeValidator
 from nivel.elements.kind import Kind
 from nivel.machine.control.block import Block, Condition, Input, Matrix, Number, Numbers, Pair
 from nivel.machine.control.part import Part, beyond, limited
-from nivel.machine.core.checked import Problem
+from nivel.machine.core.record import Problem
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.table import Interpolation, Table
 from nivel.machine.laws.time_function import ManyFunctions

@@ -10,7 +10,7 @@ from nivel.elements.control.blocks import refuse_order
 from nivel.elements.kind import Kind
 from nivel.machine.control.block import Block, Input, NotNegativeTime, Number, Pair, PositiveNumber
 from nivel.machine.control.part import Part, limited
-from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.formula import linear
 from nivel.machine.units.quantity import Duration

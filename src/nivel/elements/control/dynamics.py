@@ -15,8 +15,7 @@ from nivel.elements.kind import Kind
 from nivel.lazy import scipy
 from nivel.machine.control.block import Block, Input, Matrix, Number, Numbers, Pair
 from nivel.machine.control.part import VALUE, Part, bounded_rate, limited
-from nivel.machine.core.checked import Problem
-from nivel.machine.core.record import entry
+from nivel.machine.core.record import Problem, entry
 from nivel.machine.core.vectors import Array
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.laws.time_function import ManyFunctions

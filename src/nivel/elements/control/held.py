@@ -11,7 +11,7 @@ from nivel.elements.control.blocks import OfInput
 from nivel.elements.kind import Kind
 from nivel.machine.control.block import MOST_DELAYED, Condition, Number, Pair, PositiveNumber
 from nivel.machine.control.part import VALUE, Part
-from nivel.machine.core.checked import Problem
+from nivel.machine.core.record import Problem
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.formula import formula, linear
 from nivel.machine.units.quantity import Duration

@@ -13,8 +13,7 @@ from nivel.elements.control.blocks import OfInput, refuse_order
 from nivel.elements.kind import Kind
 from nivel.machine.control.block import WHOLE, Block, Input, NotNegativeTime, Number, Pair, PositiveNumber, names_in
 from nivel.machine.control.part import VALUE, Part
-from nivel.machine.core.checked import Problem
-from nivel.machine.core.record import Name, Record, entry
+from nivel.machine.core.record import Name, Problem, Record, entry
 from nivel.machine.given import Field, Given, Maybe, OneNumber, TwoNumbers
 from nivel.machine.laws.time_function import SomeFunction
 from nivel.machine.units.formula import Formula, formula, linear, sum_of

@@ -12,7 +12,7 @@ from pydantic import BeforeValidator
 from nivel.elements.kind import Kind
 from nivel.machine.control.block import Block, Number, Numbers, PositiveNumber
 from nivel.machine.control.part import Part, PartFunction
-from nivel.machine.core.checked import Problem
+from nivel.machine.core.record import Problem
 from nivel.machine.given import Field, ManyNumbers, OneNumber
 from nivel.machine.laws.table import Table
 from nivel.machine.units.expression import expression_of

@@ -10,8 +10,7 @@ from pydantic import BeforeValidator
 from nivel.elements.kind import Kind
 from nivel.machine.control.block import Block, Condition, Input, names_in
 from nivel.machine.control.part import Part, PartFunction
-from nivel.machine.core.checked import Problem
-from nivel.machine.core.record import Name, Record, entry, unknown_word
+from nivel.machine.core.record import Name, Problem, Record, entry, unknown_word
 from nivel.machine.given import Field, Given, Maybe
 from nivel.machine.laws.time_function import SomeFunction, TimeFunction
 from nivel.machine.units.formula import Formula, formula, linear

@@ -13,8 +13,7 @@ from pydantic import BeforeValidator, ValidationInfo
 from nivel.elements.kind import Kind
 from nivel.machine.control.block import Block, Input, Number, Numbers, names_in
 from nivel.machine.control.part import VALUE, CFacts, FmuFacts, Part, UnitFacts, UnitOutput
-from nivel.machine.core.checked import Problem
-from nivel.machine.core.record import Name, Record, entry
+from nivel.machine.core.record import Name, Problem, Record, entry
 from nivel.machine.given import Field, Given, OneNumber
 from nivel.machine.laws.python_law import PythonLaw, read_python_law, returned_count
 from nivel.machine.units.quantity import Quantity, fault, parameters_of, shown

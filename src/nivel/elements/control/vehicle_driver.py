@@ -17,7 +17,7 @@ from pydantic import BeforeValidator
 from nivel.elements.kind import Kind
 from nivel.machine.control.block import Block, Input, Matrix, NotNegativeTime, Number, PositiveNumber
 from nivel.machine.control.part import Part
-from nivel.machine.core.checked import Problem, superfluous
+from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.table import Table
 from nivel.machine.units.formula import formula, linear

@@ -17,7 +17,6 @@ from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import evaluate_function, evaluate_motion
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import (
     CoordinateDamping,
     CoordinateIntegral,
@@ -29,6 +28,7 @@ from nivel.machine.core.coefficient import (
     Restitution,
 )
 from nivel.machine.core.element import Acts, ForceElement, Inequalities
+from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.coordinate_function import CoordinateEffortFunction, CoordinatePosition, CoordinateSpeed
 from nivel.machine.laws.table import Table

@@ -20,8 +20,8 @@ from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.algebra.vectors import minus, opposite, plus, seen, turned
 from nivel.kernels.forces.wrench import add_marker_force, add_torque
 from nivel.kernels.record.record import NONE, record_at
-from nivel.machine.core.between import Between
-from nivel.machine.core.checked import Problem
+from nivel.machine.core.element import Between
+from nivel.machine.core.record import Problem
 from nivel.machine.given import Field
 from nivel.machine.units.six_by_six import Array, Diagonal, Matrix, full_matrix, six_by_six, symmetry_and_sign
 

@@ -13,7 +13,6 @@ from nivel.errors import Fault, ModelError
 from nivel.kernels.elements import friction
 from nivel.kernels.record.record import NONE
 from nivel.known import SystemBuilder
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import (
     CoordinateDamping,
     NotNegativeRate,
@@ -23,7 +22,7 @@ from nivel.machine.core.coefficient import (
     Share,
 )
 from nivel.machine.core.element import Acts, ForceElement, Holds, Inequalities
-from nivel.machine.core.record import Name
+from nivel.machine.core.record import Name, Problem, superfluous
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.laws.coordinate_function import CoordinateEffortFunction
 from nivel.machine.units.quantity import Quantity

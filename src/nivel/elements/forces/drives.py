@@ -23,7 +23,6 @@ from nivel.kernels.record.function import NUMBER, evaluate_function, table_value
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
-from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import (
     CoordinateDamping,
     CoordinateStiffness,
@@ -34,6 +33,7 @@ from nivel.machine.core.coefficient import (
     TorsionalDamping,
 )
 from nivel.machine.core.element import ForceElement
+from nivel.machine.core.record import Checked, Problem, superfluous
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.coordinate_function import CoordinateEffortFunction
 from nivel.machine.laws.table import Table

@@ -14,7 +14,6 @@ from nivel.kernels.bodies.patch_coordinate import PATCH
 from nivel.kernels.elements import friction
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import Contact, SystemBuilder
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import (
     CoordinateDamping,
     DampingPerLoad,
@@ -27,7 +26,7 @@ from nivel.machine.core.coefficient import (
     StiffnessPerLoad,
 )
 from nivel.machine.core.element import ForceElement, Holds, Inequalities
-from nivel.machine.core.record import GROUND
+from nivel.machine.core.record import GROUND, Problem, superfluous
 from nivel.machine.given import Field, Maybe
 from nivel.machine.units.quantity import PositiveLength
 from nivel.machine.uses.coordinate_reference import CoordinateReference, kind_of, resolve

@@ -20,9 +20,9 @@ from nivel.kernels.forces.wrench import add_force_at, velocity_at
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.record import record_at
 from nivel.known import SystemBuilder
-from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import NotNegativeNumber
 from nivel.machine.core.element import ForceElement
+from nivel.machine.core.record import Problem
 from nivel.machine.given import Field, OneNumber
 from nivel.machine.laws.time_function import OneFunction, ThreeFunctions, varying
 from nivel.machine.units.quantity import ANY, Quantity, listed

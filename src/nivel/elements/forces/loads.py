@@ -19,10 +19,8 @@ from nivel.kernels.forces.wrench import add_marker_force, add_torque
 from nivel.kernels.record.function import COORDINATE, RATE, evaluate_function
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
-from nivel.machine.core.between import Between
-from nivel.machine.core.checked import Problem, superfluous
-from nivel.machine.core.element import ForceElement
-from nivel.machine.core.record import GROUND, BodyName, Name
+from nivel.machine.core.element import Between, ForceElement
+from nivel.machine.core.record import GROUND, BodyName, Name, Problem, superfluous
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.time_function import ForceComponent, SpringForce, ThreeFunctions, TorqueComponent
 from nivel.machine.units.quantity import Position, listed

@@ -18,7 +18,7 @@ import numpy as np
 
 from nivel.elements.rows import Row, several
 from nivel.kernels.algebra.analytic import absolute, maximum, minimum, real
-from nivel.machine.core.checked import Checked, Problem
+from nivel.machine.core.record import Checked, Problem
 from nivel.machine.given import Field, Given
 from nivel.native.function import leaf
 

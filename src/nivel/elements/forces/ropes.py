@@ -21,11 +21,10 @@ from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
 from nivel.lazy import dataclass
-from nivel.machine.core.between import BetweenMany
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import Damping, NotNegativeNumber, PositiveNumber, Stiffness
-from nivel.machine.core.element import Acts, Inequalities
+from nivel.machine.core.element import Acts, BetweenMany, Inequalities
 from nivel.machine.core.marker import Marker
+from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.core.vectors import Array
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber
 from nivel.machine.laws.time_function import OneFunction, varying

@@ -23,7 +23,6 @@ from nivel.kernels.algebra.analytic import maximum, minimum, real
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.record import record_at
 from nivel.known import SystemBuilder
-from nivel.machine.core.checked import Problem, superfluous
 from nivel.machine.core.coefficient import (
     CoordinateDamping,
     CoordinateValue,
@@ -36,6 +35,7 @@ from nivel.machine.core.coefficient import (
     Truth,
 )
 from nivel.machine.core.element import Acts, ForceElement, Holds, Inequalities
+from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.given import Field, Maybe, OneNumber, TwoNumbers
 from nivel.machine.units.quantity import PositiveLength, Quantity, Scalar
 from nivel.machine.uses.coordinate_reference import CoordinateReference

@@ -20,9 +20,9 @@ from nivel.kernels.algebra.analytic import real
 from nivel.kernels.forces.wrench import add_marker_force
 from nivel.kernels.record.record import record_at
 from nivel.known import SystemBuilder
-from nivel.machine.core.between import BetweenMany
-from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import NotNegativeLength, Truth
+from nivel.machine.core.element import BetweenMany
+from nivel.machine.core.record import Problem
 from nivel.machine.given import Field, ManyNumbers, OneNumber
 from nivel.machine.units.quantity import Position, Quantity, listed
 from nivel.native.function import leaf, stage

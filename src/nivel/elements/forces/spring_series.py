@@ -26,9 +26,9 @@ from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
-from nivel.machine.core.between import Between
-from nivel.machine.core.checked import Problem
 from nivel.machine.core.coefficient import Damping, NotNegativeLength, Stiffness, Truth
+from nivel.machine.core.element import Between
+from nivel.machine.core.record import Problem
 from nivel.machine.given import Field, ManyNumbers, Maybe
 from nivel.machine.units.quantity import listed
 from nivel.native.function import stage

@@ -20,9 +20,8 @@ from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
 from nivel.machine.core import coefficient as of
-from nivel.machine.core.between import Between, BetweenMarkers
-from nivel.machine.core.checked import Checked, Problem, superfluous
-from nivel.machine.core.element import ForceElement
+from nivel.machine.core.element import Between, BetweenMarkers, ForceElement
+from nivel.machine.core.record import Checked, Problem, superfluous
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneRecord, ThreeNumbers
 from nivel.machine.laws.coordinate_function import CoordinateLaw
 from nivel.machine.laws.time_function import SpringForce, SpringTorque

@@ -44,8 +44,8 @@ from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
-from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import NotNegative, Share
+from nivel.machine.core.record import Checked, Problem
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.coordinate_function import CoordinateEffortFunction
 from nivel.machine.laws.table import Table

@@ -14,9 +14,8 @@ from typing import Annotated, ClassVar, Final, Literal
 from nivel.elements.output import is_angle
 from nivel.known import RowTable, SystemBuilder
 from nivel.lazy import dataclass
-from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import PositiveNumber, Truth
-from nivel.machine.core.record import Name
+from nivel.machine.core.record import Checked, Name, Problem, superfluous
 from nivel.machine.given import Field, ManyNames, ManyNumbers, Maybe, TwoNames, TwoNumbers
 from nivel.machine.laws.coordinate_function import CoordinatePosition
 from nivel.machine.laws.python_law import PythonLaw

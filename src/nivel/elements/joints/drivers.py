@@ -14,10 +14,9 @@ from nivel.errors import located
 from nivel.kernels.bodies.coordinate import ROTATION, TRANSLATION
 from nivel.known import RowTable, SystemBuilder
 from nivel.lazy import nivel
-from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import CoordinateRate, Truth
 from nivel.machine.core.orientation import AxisSequence
-from nivel.machine.core.record import GROUND, Name
+from nivel.machine.core.record import GROUND, Checked, Name, Problem, superfluous
 from nivel.machine.given import Field, Maybe, OneRecord
 from nivel.machine.laws.coordinate_function import CoordinateAcceleration, CoordinateMotion, CoordinateSpeed
 from nivel.machine.laws.python_law import PythonLaw

@@ -15,7 +15,7 @@ from nivel.kernels.bodies.coordinate import ACROSS_Y, ACROSS_Z, ALONG, LEAN_X, L
 from nivel.kernels.record import record as kernels
 from nivel.known import Beam
 from nivel.lazy import scipy
-from nivel.machine.core.checked import Problem
+from nivel.machine.core.record import Problem
 
 SAMPLES = 8  # of the line between two nodes, from which the nearest point is looked for
 OFF = 1e-3  # of the length of a beam by which the point of a joint may miss its line: the joint is on the line

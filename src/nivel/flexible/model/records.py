@@ -8,9 +8,8 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BeforeValidator
 
 from nivel.elements.beams.sections import Material, SectionRecord
-from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import Truth
-from nivel.machine.core.record import FileName, Name, unknown_word
+from nivel.machine.core.record import Checked, FileName, Name, Problem, unknown_word
 from nivel.machine.given import Field, ManyNames, Maybe, OneNumber, OneRecord, TwoNames, TwoNumbers
 from nivel.machine.machine_record import Title
 from nivel.machine.units.quantity import (

@@ -15,8 +15,7 @@ from nivel.elements.joints.drivers import Driver
 from nivel.machine.control.block import Block
 from nivel.machine.control.order import in_order, parts_of
 from nivel.machine.control.part import PartFunction, UnitOutput
-from nivel.machine.core.between import Between, BetweenMany, BetweenMarkers, End, Ends
-from nivel.machine.core.element import ForceElement
+from nivel.machine.core.element import Between, BetweenMany, BetweenMarkers, End, Ends, ForceElement
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction

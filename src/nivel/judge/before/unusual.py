@@ -27,7 +27,7 @@ from nivel.machine.bodies.solids import (
     squared_gyration,
 )
 from nivel.machine.control.part import signals_read
-from nivel.machine.core.between import End
+from nivel.machine.core.element import End
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import Record
 from nivel.machine.given import Usual, usual_of

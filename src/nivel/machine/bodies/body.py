@@ -10,10 +10,9 @@ from pydantic import BeforeValidator
 from nivel.machine.bodies.inertia import InertiaTensor, impossible, mass_properties
 from nivel.machine.bodies.shape import Mesh, Shape, Sphere, Standing
 from nivel.machine.bodies.solids import volume, why_not_solid
-from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import PositiveNumber, Truth
 from nivel.machine.core.orientation import Orientation
-from nivel.machine.core.record import GROUND, Name, Record
+from nivel.machine.core.record import GROUND, Checked, Name, Problem, Record, superfluous
 from nivel.machine.given import ANGULAR_SPEED, DENSITY, SPEED, Field, Given, ManyRecords, Maybe, OneRecord, Usual
 from nivel.machine.units.quantity import (
     AngularVelocityVector,

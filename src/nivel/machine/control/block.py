@@ -13,9 +13,8 @@ from pydantic import BeforeValidator, WithJsonSchema
 
 from nivel.known import PartFunction
 from nivel.machine.control.part import VALUE, Part
-from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import NotNegative
-from nivel.machine.core.record import Name, entry
+from nivel.machine.core.record import Checked, Name, Problem, entry, superfluous
 from nivel.machine.given import Field, ManyNumbers, ManyRows, Maybe, OneNumber, TwoNumbers
 from nivel.machine.laws.time_function import Measured
 from nivel.machine.units.formula import linear

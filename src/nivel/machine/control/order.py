@@ -8,8 +8,8 @@ from typing import Any
 from nivel.lazy import dataclass
 from nivel.machine.control.block import Block
 from nivel.machine.control.part import Part, PartFunction, signals_read
-from nivel.machine.core.checked import Problem
 from nivel.machine.core.index import Index
+from nivel.machine.core.record import Problem
 from nivel.machine.laws.symbols import UnknownSymbolError, find_in, is_output, of_forces
 from nivel.machine.units.arithmetic import RESERVED
 from nivel.machine.units.unit import UNITS

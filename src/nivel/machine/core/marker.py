@@ -8,10 +8,9 @@ from typing import Annotated, Any, ClassVar
 from pydantic import BeforeValidator
 
 from nivel.machine.bodies.shape import Shape, Standing
-from nivel.machine.core.axes import bad_axis_pair
-from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.orientation import Orientation
-from nivel.machine.core.record import GROUND, BodyName, Name
+from nivel.machine.core.placement import bad_axis_pair
+from nivel.machine.core.record import GROUND, BodyName, Checked, Name, Problem
 from nivel.machine.given import Field, Given, Maybe, OneRecord
 from nivel.machine.units.quantity import Direction, Position, fault, shown
 

@@ -1,7 +1,9 @@
-"""Placement of frames at the start: body frames, also those laid between two points, and frames given by axes."""
+"""Placement of frames at the start: body frames, also those laid between two points, frames given by axes, and checks of these."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
@@ -10,11 +12,14 @@ from numpy.typing import ArrayLike
 from nivel.known import Body, Marker
 from nivel.machine.bodies.shape import Standing
 from nivel.machine.core import orientation
+from nivel.machine.core.record import Problem
 from nivel.machine.core.vectors import Array, cross
 
 VERTICAL: Final = 1e-3  # [rad] a bar closer than this to ±Z takes its z axis from global Y
 PARALLEL: Final = 1e-3  # [rad] two axes closer than this define no plane
 TIE: Final = 1e-6  # components closer than this are equally perpendicular
+
+Triple = tuple[float, float, float]
 
 
 def placement(body: Body) -> tuple[Array, Array]:
@@ -96,3 +101,27 @@ def _perpendicular(vector: Array, to: Array) -> Array:
         vector = _unit(vector)
         vector = vector - (vector @ to) * to
     return _unit(vector)
+
+
+def no_direction(name: str, direction: Triple | None) -> Iterator[Problem]:
+    """Whether `direction`, the field `name`, is a zero vector."""
+    if direction is not None and not any(direction):
+        yield Problem((name,), f"`{name}` has no direction: it is zero")
+
+
+def bad_axis_pair(axis: Triple | None, x_axis: Triple | None) -> Iterator[Problem]:
+    """Whether a direction is zero, and whether `x_axis` lacks an `axis` or is parallel to it."""
+    zero = [*no_direction("axis", axis), *no_direction("x_axis", x_axis)]
+    yield from zero
+    if x_axis is None or zero:
+        return
+    if axis is None:
+        yield Problem(("x_axis",), "`x_axis` needs an `axis` (the z axis)")
+    elif parallel(axis, x_axis):
+        yield Problem(("x_axis",), "`x_axis` is parallel to `axis`; it must point elsewhere")
+
+
+def parallel(first: Triple, second: Triple) -> bool:
+    """Whether two directions, not zero, lie along one line."""
+    angle = angle_between(first, second)
+    return min(angle, math.pi - angle) < PARALLEL

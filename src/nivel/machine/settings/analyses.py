@@ -9,8 +9,7 @@ from typing import Annotated, Any, Final
 from pydantic import BeforeValidator
 
 from nivel.errors import Fault, gathered, refuse
-from nivel.machine.core.checked import Checked, Problem
-from nivel.machine.core.record import Record
+from nivel.machine.core.record import Checked, Problem, Record
 from nivel.machine.given import Field, Given, Maybe, OneNumber
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SHORTEST, SimulationSettings

@@ -9,9 +9,8 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import ValidationInfo, field_validator
 
 from nivel import methods
-from nivel.machine.core.checked import Checked, Problem
 from nivel.machine.core.coefficient import NotNegative
-from nivel.machine.core.record import Record
+from nivel.machine.core.record import Checked, Problem, Record
 from nivel.machine.given import Field, Given, ManyNames, Maybe, OneRecord
 from nivel.machine.units.quantity import Angle, Duration, PositiveLength, Rate, Real, Whole, fault
 from nivel.machine.uses.coordinate_reference import CoordinateReference

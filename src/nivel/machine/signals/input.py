@@ -8,9 +8,8 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, ValidationInfo
 
-from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.coefficient import Truth
-from nivel.machine.core.record import Name
+from nivel.machine.core.record import Checked, Name, Problem, superfluous
 from nivel.machine.given import Field, Maybe, OneNumber, OneRecord, TwoNumbers
 from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import Measured, OneFunction, varying

@@ -7,10 +7,9 @@ from typing import Annotated, Any, ClassVar, Final
 
 from pydantic import BeforeValidator, ValidationInfo, WithJsonSchema
 
-from nivel.machine.core.checked import Checked, Problem, superfluous
 from nivel.machine.core.marker import TwoMarkers
 from nivel.machine.core.orientation import AxisSequence
-from nivel.machine.core.record import Name, unknown_word
+from nivel.machine.core.record import Checked, Name, Problem, superfluous, unknown_word
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.time_function import Measured
 from nivel.machine.units.dimension import without_angle

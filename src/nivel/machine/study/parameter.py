@@ -12,7 +12,7 @@ from pydantic import BeforeValidator, GetCoreSchemaHandler
 from pydantic_core import CoreSchema
 
 from nivel.errors import Fault, ModelError
-from nivel.machine.core.checked import Checked, Problem
+from nivel.machine.core.record import Checked, Problem
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.settings.values import Count
 from nivel.machine.study.any_quantity import AnyQuantity, si, unlike

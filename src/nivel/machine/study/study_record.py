@@ -8,8 +8,7 @@ from typing import Annotated, Any, ClassVar, Final, Literal, get_args
 
 from pydantic import BeforeValidator
 
-from nivel.machine.core.checked import Checked, Problem
-from nivel.machine.core.record import NAME
+from nivel.machine.core.record import NAME, Checked, Problem
 from nivel.machine.given import Field, Maybe
 from nivel.machine.settings.values import Count, Names
 from nivel.machine.study.parameter import AtTime, FinalValue, Output, Range, Reduced, StudyParameter, Values

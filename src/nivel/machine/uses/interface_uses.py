@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from nivel.known import MachineRecord
-from nivel.machine.core.checked import Place, Problem
 from nivel.machine.core.marker import Marker
+from nivel.machine.core.record import Place, Problem
 
 
 def problems_of_interfaces(machine: MachineRecord) -> Iterator[Problem]:

@@ -350,7 +350,7 @@ def run(folder, *command):
 CALCULATE = """
 import numpy as np
 from nivel.analysis.curves.functions import ExpressionCurve
-from nivel.machine.units.expression import Expression
+from nivel.machine.laws.varying_value import Expression
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.kernels.record import program

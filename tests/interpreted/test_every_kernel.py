@@ -42,7 +42,7 @@ from nivel.integrate.loop.repeated import halt, repeat_evaluation, repeat_family
 from nivel.kernels.core.status import BUDGET_SPENT, DONE, OK
 from nivel.live.preparation import live_plan, prepared_run
 from nivel.live.shared import bytes_of, live_in
-from nivel.machine.units.expression import Expression, expression_of
+from nivel.machine.laws.varying_value import Expression, expression_of
 from nivel.machine.units.tree import Lookup, Time
 from nivel.motion.catalogue import FLEXIBLE, PATHS
 from running import run

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from nivel.analysis.curves.functions import ExpressionCurve
-from nivel.machine.units.expression import Expression, expression_of
+from nivel.machine.laws.varying_value import Expression, expression_of
 from nivel.machine.units.functions import interpolated
 from nivel.machine.units.tree import TIME, Lookup, Time
 from nivel.system.laws.program import PlacedProgram

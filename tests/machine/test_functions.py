@@ -9,8 +9,8 @@ import pytest
 from nivel.analysis.curves.corners import corners_of, jumping_functions
 from nivel.analysis.curves.functions import ExpressionCurve
 from nivel.kernels.record import program as kernel
+from nivel.machine.laws.varying_value import Expression
 from nivel.machine.units.arithmetic import evaluate
-from nivel.machine.units.expression import Expression
 from nivel.machine.units.functions import FUNCTIONS, SAME, Alike, FunctionKind, Units
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import TIME, Call, ExpressionError, Signal

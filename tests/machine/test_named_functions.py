@@ -7,8 +7,8 @@ from scipy.interpolate import CubicSpline, PchipInterpolator
 from nivel import PointForce
 from nivel.errors import ModelError
 from nivel.files import parse_machine
+from nivel.machine.laws.varying_value import Expression
 from nivel.machine.units.arithmetic import render
-from nivel.machine.units.expression import Expression
 from nivel.machine.units.functions import differentiated, pieces
 from nivel.machine.units.tree import ExpressionError
 

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nivel.machine.laws.time_function import read_time_function
+from nivel.machine.laws.varying_value import Expression
 from nivel.machine.units.dimension import BASES, KINDS, NONE, dimension, known, power, product
-from nivel.machine.units.expression import Expression
 from nivel.machine.units.plain_factors import completed, unit_text
 from nivel.machine.units.quantity import LackingUnitError, read_quantity
 from nivel.machine.units.tree import ExpressionError, Number

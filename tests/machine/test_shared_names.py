@@ -10,11 +10,10 @@ from hypothesis import strategies as st
 from nivel import PointForce, Torque
 from nivel.errors import ModelError
 from nivel.files import parse_machine
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.parameters import resolve
 from nivel.machine.units.arithmetic import bind, evaluate
 from nivel.machine.units.dimension import dimension
-from nivel.machine.units.expression import Expression
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.measure import measure, name_notes
 from nivel.machine.units.quantity import read_quantity

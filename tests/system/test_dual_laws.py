@@ -7,7 +7,7 @@ import pytest
 
 from nivel.kernels.record import program
 from nivel.machine.laws.python_law import PythonLaw
-from nivel.machine.units.expression import Expression
+from nivel.machine.laws.varying_value import Expression
 from nivel.native.duals import duals
 from nivel.system.laws.laws import dual_address, law_address
 from nivel.system.laws.program import expression_program, motion_program

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as some
 
 from nivel.kernels.record import program as kernel
-from nivel.machine.units.expression import Expression, expression_of
+from nivel.machine.laws.varying_value import Expression, expression_of
 from nivel.machine.units.tree import OPERATORS, Call, ExpressionError, Negative, Number, Operation, Signal, Time
 from nivel.system.laws.program import expression_program, motion_program, switching_program
 

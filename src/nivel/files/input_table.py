@@ -15,7 +15,7 @@ from nivel.errors import Fault, ModelError, gathered, refuse
 from nivel.files.measured_file import KINDS, MeasuredError, measured_columns
 from nivel.files.reader import read_text
 from nivel.files.sources import read_bytes
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.signals.input import Input
 from nivel.machine.units.quantity import ANY, Kind, read_quantity

@@ -12,7 +12,7 @@ from nivel.files.reader import OUTSIDE, Origin, parse_machine
 from nivel.files.writer import write_machine
 from nivel.machine.bodies.inertia import Inertia
 from nivel.machine.core.record import Record, field_words
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.references import SECTIONS
 from nivel.words.wording import shown, unknown_word

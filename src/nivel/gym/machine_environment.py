@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from nivel.analysis.run.stepping import Simulation, Snapshot
 from nivel.api import Machine
 from nivel.errors import Fault, ModelError, SolveError
-from nivel.machine.units.expression import Expression
+from nivel.machine.laws.varying_value import Expression
 from nivel.machine.units.quantity import expression_fault, read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.result import Result

@@ -25,10 +25,10 @@ from nivel.kernels.output.observe import observe
 from nivel.lazy import dataclass
 from nivel.live.shared import Sizes, arrays_in, put_back, taken
 from nivel.machine.laws.time_function import Table
+from nivel.machine.laws.varying_value import Expression
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import changed
 from nivel.machine.signals.input import Input
-from nivel.machine.units.expression import Expression
 
 LONGEST: Final = 86400.0  # s of a live run
 LONGEST_TICK: Final = 0.1  # s: beyond it nobody can operate a machine

@@ -21,9 +21,8 @@ from nivel.kernels.signals.functions import compute, read_inputs, sample
 from nivel.kernels.signals.watch import MARK
 from nivel.kernels.solve.saddle import SETTLED
 from nivel.lazy import nivel
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Expression, Table, expression_of
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.expression import Expression, expression_of
 from nivel.machine.units.sides import marks
 from nivel.system.bodies import body_tables, given_poses, given_velocities, machine_size
 from nivel.system.builder import SystemBuilder

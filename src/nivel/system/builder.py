@@ -7,8 +7,8 @@ from contextlib import contextmanager
 
 import numpy as np
 
+from nivel.elements.facts import Coupled, StateFact
 from nivel.elements.rows import Row
-from nivel.elements.states import Coupled, StateFact
 from nivel.kernels.bodies.coordinate import DISTANCE, ROTATION
 from nivel.kernels.record.function import ANGULAR_VELOCITY, COORDINATE, OUTPUT, POSITION, RATE, STATE, VELOCITY
 from nivel.kernels.record.hook import Family
@@ -17,8 +17,8 @@ from nivel.lazy import dataclass, field
 from nivel.machine.core.element import End, GlobalPoint
 from nivel.machine.core.marker import Marker
 from nivel.machine.laws.symbols import find_symbol, is_output
-from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
+from nivel.machine.laws.varying_value import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.formula import LinearFunction
 from nivel.machine.uses.coordinate_reference import Kind, resolve

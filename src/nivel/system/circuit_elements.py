@@ -18,7 +18,7 @@ from nivel.elements.circuits.nodes import Node, is_warm
 from nivel.elements.circuits.restrictions import restrict_gas
 from nivel.elements.circuits.tanks import Tank
 from nivel.elements.circuits.volumes import GIVEN, ROOM_COLUMNS, SIGNAL, filled_room, find_pressures
-from nivel.elements.states import Coupled, StateFact
+from nivel.elements.facts import Coupled, StateFact
 from nivel.errors import located
 from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.record import NONE, Circuit

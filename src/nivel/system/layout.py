@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import prod
 
-from nivel.elements.states import StateFact
+from nivel.elements.facts import StateFact
 from nivel.lazy import dataclass
 
 

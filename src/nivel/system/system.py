@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.states import Coupled, StateFact
+from nivel.elements.facts import Coupled, StateFact
 from nivel.kernels.record.record import Control, Record
 from nivel.lazy import dataclass, field, nivel, replace
 from nivel.machine.units.tree import Node as Tree

@@ -10,7 +10,7 @@ from typing import Any, Final, TypeVar, get_args, get_type_hints
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.states import StateFact
+from nivel.elements.facts import StateFact
 from nivel.kernels.bodies.coordinate import ALONG, LAST_ANGLE
 from nivel.kernels.bodies.driven_turn import BASE
 from nivel.kernels.bodies.measure import COMBINED

@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from nivel.kernels.record import program as kernel
-from nivel.machine.units.expression import Expression
+from nivel.machine.laws.varying_value import Expression
 from nivel.system.laws.program import expression_program
 from simulating import simulate
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from nivel.errors import ModelError
-from nivel.machine.units.expression import Expression
+from nivel.machine.laws.varying_value import Expression
 from nivel.system.laws.integrated import integrated
 from simulating import hinge, simulate, slide, wheel
 

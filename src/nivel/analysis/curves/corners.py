@@ -16,10 +16,9 @@ from nivel.kernels.record.function import NEAR
 from nivel.lazy import scipy
 from nivel.machine.core.vectors import Array
 from nivel.machine.laws.python_law import PythonLaw
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.arithmetic import evaluate
-from nivel.machine.units.expression import Expression
 from nivel.machine.units.sides import is_of_time_alone, jumps, sides
 from nivel.machine.units.tree import TIME, ExpressionError, Node, signals
 from nivel.words.wording import shown

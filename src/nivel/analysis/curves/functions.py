@@ -14,10 +14,9 @@ from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
 from nivel.machine.laws.functions import Sampling
 from nivel.machine.laws.python_law import PythonLaw
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.arithmetic import LOCAL_SYMBOLS
-from nivel.machine.units.expression import Expression
 from nivel.machine.units.formula import linear_function
 from nivel.machine.units.tree import TIME
 from nivel.native.signature import LAW

@@ -23,8 +23,8 @@ from nivel.machine.control.part import VALUE
 from nivel.machine.core.vectors import Array, cross
 from nivel.machine.laws.functions import functions_of
 from nivel.machine.laws.symbols import Symbol, UnknownSymbolError, find_symbol
+from nivel.machine.laws.varying_value import Expression
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.expression import Expression
 from nivel.machine.units.sides import sides
 from nivel.machine.units.tree import TIME, Node, Operation, signals
 from nivel.results.result import Result

@@ -39,11 +39,10 @@ from nivel.judge.during.stop import Stop
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import CONTRADICTION, DONE
 from nivel.lazy import dataclass, replace
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.analyses import KinematicsSettings
 from nivel.machine.settings.values import POSITIONS
-from nivel.machine.units.expression import Expression
 from nivel.machine.units.tree import TIME
 from nivel.results.curve import PROBED, ROUNDED, TOLD, curve
 from nivel.results.memory import Memory

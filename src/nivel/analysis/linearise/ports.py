@@ -17,16 +17,15 @@ from nivel.analysis.assembly.instant import NOTHING, Instant, Lanes, frame_place
 from nivel.analysis.linearise.eigenvalues import Eigen
 from nivel.analysis.linearise.reduction import Ports, StateSpace
 from nivel.elements.circuits.component import Component
+from nivel.elements.facts import StateFact
 from nivel.elements.forces.actuators import Motor
-from nivel.elements.states import StateFact
 from nivel.errors import Fault, ModelError, refuse
 from nivel.kernels.record.record import SENSE
 from nivel.kernels.signals import sensor
 from nivel.lazy import dataclass
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.signals.input import State
-from nivel.machine.units.expression import Expression
 from nivel.system.layout import reported
 from nivel.system.system import Array
 

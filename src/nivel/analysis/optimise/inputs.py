@@ -15,7 +15,7 @@ from nivel.files.csv_tables import CsvError, numeric_columns
 from nivel.files.measured_file import KINDS
 from nivel.files.sources import read_bytes, read_text
 from nivel.lazy import dataclass
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.study.any_quantity import another_measure
 from nivel.machine.study.parameter import SCALAR

@@ -22,8 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.elements.beams.beam import Beam
+from nivel.elements.facts import Coupled
 from nivel.elements.rows import Row, element, several
-from nivel.elements.states import Coupled
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.inverse_tangent import inverse_tangent_by, inverse_tangent_factor
 from nivel.kernels.algebra.relative_rotation import rotation_vector

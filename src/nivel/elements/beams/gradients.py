@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from nivel.elements.beams.exact import gauss
-from nivel.elements.states import Coupled
+from nivel.elements.facts import Coupled
 from nivel.kernels.record.hook import Family
 from nivel.known import Beam, BeamSection, SystemBuilder
 from nivel.lazy import dataclass

@@ -13,9 +13,9 @@ from itertools import pairwise
 import numpy as np
 
 from nivel.elements.beams.exact import Array, gauss, relative_turns
+from nivel.elements.facts import Coupled
 from nivel.elements.forces.bushing import BushingRow
 from nivel.elements.forces.bushing import apply as bushing
-from nivel.elements.states import Coupled
 from nivel.kernels.record.record import NONE
 from nivel.known import Beam, SystemBuilder
 from nivel.lazy import dataclass

@@ -43,8 +43,8 @@ from nivel.elements.circuits.volumes import (
     THETA,
     nitrogen_room,
 )
+from nivel.elements.facts import StateFact
 from nivel.elements.rows import element
-from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.record import record_at
 from nivel.known import Node, Swept, SystemBuilder

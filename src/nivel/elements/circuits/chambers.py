@@ -11,7 +11,7 @@ from nivel.elements.circuits.kind import Swept
 from nivel.elements.circuits.nodes import growth_of_walls, volume_node
 from nivel.elements.circuits.pistons import STAGES, PistonFriction, displace, guide, press
 from nivel.elements.contacts.impact import damping_of_restitution
-from nivel.elements.states import Coupled
+from nivel.elements.facts import Coupled
 from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.record.record import NONE
 from nivel.known import Node, SystemBuilder

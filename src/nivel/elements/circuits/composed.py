@@ -6,7 +6,7 @@ from typing import Any
 
 from nivel.elements.circuits.poppets import NODES, lift
 from nivel.elements.circuits.restrictions import DIRECT, add_flow, rated, restrict
-from nivel.elements.states import StateFact
+from nivel.elements.facts import StateFact
 from nivel.kernels.record.record import NONE
 from nivel.known import SystemBuilder
 from nivel.machine.core.element import Acts

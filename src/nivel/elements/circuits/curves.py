@@ -15,7 +15,7 @@ from nivel.lazy import dataclass
 from nivel.machine.core.coefficient import Area, Numbers, Pressure, Volume
 from nivel.machine.core.record import Checked, Problem
 from nivel.machine.given import Field, Given, ManyNumbers, OneNumber
-from nivel.machine.laws.table import Table, read_table
+from nivel.machine.laws.varying_value import Table, read_table
 from nivel.machine.units import dimension
 from nivel.machine.units.quantity import Quantity, fault, listed, parameters_of, shown
 

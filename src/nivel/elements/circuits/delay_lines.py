@@ -39,8 +39,8 @@ from nivel.elements.circuits.line_friction import (
 from nivel.elements.circuits.nodes import TYPICAL
 from nivel.elements.circuits.smooth import magnitude_within
 from nivel.elements.circuits.tangent import add_by_pressure
+from nivel.elements.facts import StateFact
 from nivel.elements.rows import element
-from nivel.elements.states import StateFact
 from nivel.errors import Fault, ModelError
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.record import NONE, record_at

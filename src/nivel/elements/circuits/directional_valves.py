@@ -17,8 +17,8 @@ from nivel.elements.circuits.restrictions import EDGE, MIDDLE, add_flow, rated, 
 from nivel.elements.circuits.smooth import clipped
 from nivel.elements.circuits.spools import Switching, add_switch, switch
 from nivel.elements.circuits.symbol import Symbol, path
+from nivel.elements.facts import StateFact
 from nivel.elements.rows import element
-from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import tanh
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.record import NONE, record_at

@@ -33,7 +33,7 @@ from nivel.kernels.record.record import NONE, record_at
 from nivel.machine.core.coefficient import Leakage, Share
 from nivel.machine.core.record import Checked, Problem, superfluous
 from nivel.machine.given import Field, Given, ManyNumbers, ManyRecords, Maybe, OneNumber
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Table
 from nivel.machine.units.quantity import Angle, PositiveLength, Quantity, Whole, listed
 from nivel.native.function import leaf
 

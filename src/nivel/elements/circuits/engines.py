@@ -20,8 +20,8 @@ from nivel.elements.circuits.rotary import SETTING, Inertia
 from nivel.elements.circuits.rotary import TORQUE as OF_TORQUE
 from nivel.elements.circuits.symbol import Symbol, path
 from nivel.elements.circuits.tangent import add_by_pressure, add_flow_by_column
+from nivel.elements.facts import Coupled, StateFact
 from nivel.elements.rows import element
-from nivel.elements.states import Coupled, StateFact
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.record import NONE, record_at
@@ -29,7 +29,7 @@ from nivel.known import SystemBuilder
 from nivel.machine.core.coefficient import NotNegativeTorque, Share, Torques
 from nivel.machine.core.record import Checked, Problem
 from nivel.machine.given import Field, OneRecord, Usual
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Table
 from nivel.native.function import stage
 
 

@@ -41,8 +41,8 @@ from nivel.elements.circuits.restrictions import flowing
 from nivel.elements.circuits.smooth import magnitude_within
 from nivel.elements.circuits.symbol import pipe
 from nivel.elements.circuits.tangent import add_by_pressure, add_flow_by_column, add_flow_by_pressure
+from nivel.elements.facts import StateFact
 from nivel.elements.rows import element
-from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.record.record import record_at
 from nivel.known import Node, Swept, SystemBuilder

@@ -23,8 +23,8 @@ from nivel.elements.circuits.spool_valves import SpoolValve, closed_until
 from nivel.elements.circuits.symbol import Symbol, circle, path
 from nivel.elements.circuits.tangent import add_by_pressure
 from nivel.elements.circuits.volumes import SIGNAL
+from nivel.elements.facts import StateFact
 from nivel.elements.rows import element
-from nivel.elements.states import StateFact
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import Swept, SystemBuilder
 from nivel.machine.core.coefficient import Share

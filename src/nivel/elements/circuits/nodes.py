@@ -9,7 +9,7 @@ from nivel.elements.circuits.density import HEAT_CAPACITY, START, density_and_mo
 from nivel.elements.circuits.fluids import OIL
 from nivel.elements.circuits.kind import Swept
 from nivel.elements.circuits.volumes import VOLUME
-from nivel.elements.states import StateFact
+from nivel.elements.facts import StateFact
 from nivel.kernels.record.record import NONE
 from nivel.known import Component, Gas, NodeMaker, SystemBuilder
 from nivel.lazy import dataclass

@@ -23,8 +23,8 @@ from nivel.elements.circuits.curves import Pressures, as_many, held_curve, risin
 from nivel.elements.circuits.kind import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import slope_of_step, step
 from nivel.elements.circuits.tangent import add_by_pressure
+from nivel.elements.facts import StateFact
 from nivel.elements.rows import element
-from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real, tanh
 from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.record import NONE, record_at
@@ -32,7 +32,7 @@ from nivel.known import HydraulicMotor, Pump, SystemBuilder
 from nivel.machine.core.coefficient import Numbers
 from nivel.machine.core.record import Checked, Problem
 from nivel.machine.given import Field
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Table
 from nivel.native.function import leaf, stage
 
 

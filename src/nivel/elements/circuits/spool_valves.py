@@ -20,8 +20,8 @@ from nivel.known import SystemBuilder
 from nivel.machine.core.coefficient import NotNegativeNumber, PositiveNumber
 from nivel.machine.core.record import Problem, entry, superfluous
 from nivel.machine.given import Field, Given, Maybe, OneNumber, OneRecord
-from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import OneFunction, varying
+from nivel.machine.laws.varying_value import Table
 from nivel.machine.units.quantity import PositiveLength, Quantity, fault
 
 PORTS = ("P", "T", "A", "B", "C", "R", "S", "LS")

@@ -27,8 +27,8 @@ import numpy as np
 from nivel.elements.circuits.curves import CurveOf, SomeCurve, held_curve
 from nivel.elements.circuits.kind import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import clipped, magnitude_within, sign_within, step
+from nivel.elements.facts import StateFact
 from nivel.elements.rows import element
-from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real, tanh
 from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.record import NONE, record_at
@@ -36,7 +36,7 @@ from nivel.known import SpoolValve, SystemBuilder, TimeFunction
 from nivel.machine.core.coefficient import Frequency, NotNegativeDuration, NotNegativeForce, PositiveNumber, Truth
 from nivel.machine.core.record import Checked
 from nivel.machine.given import Field, OneNumber
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Table
 from nivel.machine.units.quantity import Duration, Quantity
 from nivel.native.function import leaf
 

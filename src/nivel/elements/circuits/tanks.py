@@ -27,7 +27,7 @@ from nivel.elements.circuits.nodes import (
 )
 from nivel.elements.circuits.symbol import Symbol, circle, path
 from nivel.elements.circuits.volumes import GIVEN
-from nivel.elements.states import Coupled
+from nivel.elements.facts import Coupled
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at

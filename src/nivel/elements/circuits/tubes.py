@@ -26,8 +26,8 @@ from nivel.elements.circuits.nodes import NO_ACCUMULATOR, volume_node
 from nivel.elements.circuits.restrictions import REFERENCE_ROOT, carry_heat
 from nivel.elements.circuits.smooth import magnitude_within
 from nivel.elements.circuits.symbol import pipe
+from nivel.elements.facts import StateFact
 from nivel.elements.rows import element
-from nivel.elements.states import StateFact
 from nivel.kernels.record.record import record_at
 from nivel.known import Node, Swept, SystemBuilder
 from nivel.machine.core.coefficient import NotNegativeNumber

@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, Final, Literal
 from pydantic import BeforeValidator
 
 from nivel.elements.contacts.height_field import HeightField
-from nivel.elements.output import Output, of_force
+from nivel.elements.facts import Output, of_force
 from nivel.machine.core.coefficient import (
     DampingPerLoad,
     Exponent,

@@ -27,9 +27,9 @@ from nivel.elements.contacts.law import (
     meets,
     push,
 )
+from nivel.elements.facts import add_outputs
 from nivel.elements.forces.friction import add_friction_work, rub_off
 from nivel.elements.kind import Kind
-from nivel.elements.output import add_outputs
 from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import dot

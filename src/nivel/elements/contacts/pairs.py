@@ -16,9 +16,9 @@ from nivel.elements.contacts.shapes import (
     part_of,
     shape_marker,
 )
+from nivel.elements.facts import add_outputs
 from nivel.elements.forces.friction import ROUND_FACE, add_friction_work, add_patch, rub_off
 from nivel.elements.kind import Kind
-from nivel.elements.output import add_outputs
 from nivel.kernels.elements.touch import DEPTH, LOST, RATE
 from nivel.kernels.record.function import OUTPUT
 from nivel.kernels.record.hook import Family

@@ -15,9 +15,8 @@ import numpy as np
 
 from nivel.elements.contacts.height_field import HeightField
 from nivel.elements.contacts.on_soil import SoilRow, WheelRow, apply
+from nivel.elements.facts import Output, StateFact, add_outputs, of_force
 from nivel.elements.kind import Kind
-from nivel.elements.output import Output, add_outputs, of_force
-from nivel.elements.states import StateFact
 from nivel.errors import Fault, ModelError
 from nivel.kernels.core.block import Handle
 from nivel.kernels.elements.soil import Cells, address_of

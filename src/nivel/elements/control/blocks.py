@@ -14,8 +14,8 @@ from nivel.machine.control.block import Block, Condition, Input, Matrix, Number,
 from nivel.machine.control.part import Part, beyond, limited
 from nivel.machine.core.record import Problem
 from nivel.machine.given import Field, Maybe
-from nivel.machine.laws.table import Interpolation, Table
 from nivel.machine.laws.time_function import ManyFunctions
+from nivel.machine.laws.varying_value import Interpolation, Table
 from nivel.machine.units.formula import Formula, formula, linear, sum_of
 from nivel.machine.units.quantity import listed
 from nivel.machine.units.tree import Lookup as Curve

@@ -14,8 +14,7 @@ from nivel.machine.control.block import Block, Number, Numbers, PositiveNumber
 from nivel.machine.control.part import Part, PartFunction
 from nivel.machine.core.record import Problem
 from nivel.machine.given import Field, ManyNumbers, OneNumber
-from nivel.machine.laws.table import Table
-from nivel.machine.units.expression import expression_of
+from nivel.machine.laws.varying_value import Table, expression_of
 from nivel.machine.units.formula import Formula, formula, sum_of
 from nivel.machine.units.quantity import Quantity, listed
 from nivel.machine.units.tree import Call, Time

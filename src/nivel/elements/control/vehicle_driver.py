@@ -19,7 +19,7 @@ from nivel.machine.control.block import Block, Input, Matrix, NotNegativeTime, N
 from nivel.machine.control.part import Part
 from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.given import Field, Maybe
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Table
 from nivel.machine.units.formula import formula, linear
 from nivel.machine.units.functions import pieces
 from nivel.machine.units.quantity import Duration

@@ -7,10 +7,9 @@ from collections.abc import Iterator
 from typing import ClassVar, Literal
 
 from nivel.elements.contacts.impact import damping_of_restitution, impact
+from nivel.elements.facts import Output, StateFact, add_outputs, is_angle, of_effort, of_value
 from nivel.elements.kind import Kind
-from nivel.elements.output import Output, add_outputs, is_angle, of_effort, of_value
 from nivel.elements.rows import Row, element
-from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import maximum, real
 from nivel.kernels.core.number import where
 from nivel.kernels.forces.wrench import add_coordinate_force
@@ -19,7 +18,10 @@ from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
 from nivel.machine.core.coefficient import (
     CoordinateDamping,
+    CoordinateEffortFunction,
     CoordinateIntegral,
+    CoordinatePosition,
+    CoordinateSpeed,
     CoordinateStiffness,
     CoordinateValue,
     Exponent,
@@ -30,11 +32,9 @@ from nivel.machine.core.coefficient import (
 from nivel.machine.core.element import Acts, ForceElement, Inequalities
 from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.given import Field, Maybe
-from nivel.machine.laws.coordinate_function import CoordinateEffortFunction, CoordinatePosition, CoordinateSpeed
-from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
+from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.power_stiffness import PowerStiffness
-from nivel.machine.units.expression import Expression
 from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import CoordinateReference
 

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
+from nivel.elements.facts import Output, add_outputs, of_force
 from nivel.elements.kind import Kind
-from nivel.elements.output import Output, add_outputs, of_force
 from nivel.elements.rows import Row, element, several
 from nivel.kernels.algebra.relative_rotation import rotation_vector, tangent_product
 from nivel.kernels.algebra.spatial import cross, dot

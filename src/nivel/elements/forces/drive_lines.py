@@ -6,15 +6,16 @@ import math
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
+from nivel.elements.facts import Output, add_outputs, is_angle, of_effort
 from nivel.elements.forces.shafts import AT_HIGH, AT_LOW, KEPT, BeltRow, DriveLine, difference, pull_belt
 from nivel.elements.kind import Kind
-from nivel.elements.output import Output, add_outputs, is_angle, of_effort
 from nivel.errors import Fault, ModelError
 from nivel.kernels.elements import friction
 from nivel.kernels.record.record import NONE
 from nivel.known import SystemBuilder
 from nivel.machine.core.coefficient import (
     CoordinateDamping,
+    CoordinateEffortFunction,
     NotNegativeRate,
     PositiveCoordinateStiffness,
     PositiveEffort,
@@ -24,7 +25,6 @@ from nivel.machine.core.coefficient import (
 from nivel.machine.core.element import Acts, ForceElement, Holds, Inequalities
 from nivel.machine.core.record import Name, Problem, superfluous
 from nivel.machine.given import Field, Maybe, OneNumber
-from nivel.machine.laws.coordinate_function import CoordinateEffortFunction
 from nivel.machine.units.quantity import Quantity
 from nivel.machine.uses.coordinate_reference import CoordinateReference
 

@@ -12,11 +12,10 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 from pydantic import BeforeValidator
 
+from nivel.elements.facts import Output, StateFact, add_outputs, is_angle, of_effort
 from nivel.elements.forces.shafts import with_play
 from nivel.elements.kind import Kind
-from nivel.elements.output import Output, add_outputs, is_angle, of_effort
 from nivel.elements.rows import Row, element
-from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import absolute, real, tanh
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import NUMBER, evaluate_function, table_value
@@ -25,6 +24,7 @@ from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
 from nivel.machine.core.coefficient import (
     CoordinateDamping,
+    CoordinateEffortFunction,
     CoordinateStiffness,
     NotNegative,
     NotNegativeValue,
@@ -35,9 +35,8 @@ from nivel.machine.core.coefficient import (
 from nivel.machine.core.element import ForceElement
 from nivel.machine.core.record import Checked, Problem, superfluous
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord
-from nivel.machine.laws.coordinate_function import CoordinateEffortFunction
-from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import OneFunction, TimeFunction, varying
+from nivel.machine.laws.varying_value import Table
 from nivel.machine.units.formula import linear
 from nivel.machine.units.quantity import AngularVelocity, Quantity, listed
 from nivel.machine.uses.coordinate_reference import CoordinateReference, resolve

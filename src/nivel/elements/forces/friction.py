@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
+from nivel.elements.facts import Output, StateFact, add_outputs, is_angle, of_effort
 from nivel.elements.kind import Kind
-from nivel.elements.output import Output, add_outputs, is_angle, of_effort
 from nivel.elements.rows import Row, element
-from nivel.elements.states import StateFact
 from nivel.kernels.bodies.coordinate import ALONG, CROSS_SECOND
 from nivel.kernels.bodies.patch_coordinate import PATCH
 from nivel.kernels.elements import friction

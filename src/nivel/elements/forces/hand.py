@@ -9,10 +9,9 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import BeforeValidator
 
+from nivel.elements.facts import Coupled, add_outputs, of_force
 from nivel.elements.kind import Kind
-from nivel.elements.output import add_outputs, of_force
 from nivel.elements.rows import Row, element, several
-from nivel.elements.states import Coupled
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import dot
 from nivel.kernels.algebra.vectors import minus, plus, times, turned

@@ -9,9 +9,9 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import BeforeValidator
 
+from nivel.elements.facts import add_outputs, of_force, of_value
 from nivel.elements.forces.actuators import MotorRow, drive
 from nivel.elements.kind import Kind
-from nivel.elements.output import add_outputs, of_force, of_value
 from nivel.elements.rows import Row, element
 from nivel.kernels.algebra.vectors import opposite, turned
 from nivel.kernels.bodies.coordinate import DISTANCE

@@ -9,12 +9,11 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import BeforeValidator
 
+from nivel.elements.facts import Output, StateFact, add_outputs, of_force
 from nivel.elements.forces import heavy_ropes, wound_ropes
 from nivel.elements.forces.wound_ropes import PART, WIDTH, RopeRow, paid_out, stick_and_slip, tangent, tension_in
 from nivel.elements.kind import Kind
-from nivel.elements.output import Output, add_outputs, of_force
 from nivel.elements.rows import element
-from nivel.elements.states import StateFact
 from nivel.errors import Fault, ModelError
 from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.forces.wrench import add_coordinate_force

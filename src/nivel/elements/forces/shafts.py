@@ -16,8 +16,8 @@ from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
+from nivel.elements.facts import Output, add_outputs, is_angle, of_effort, of_force, of_value
 from nivel.elements.kind import Kind
-from nivel.elements.output import Output, add_outputs, is_angle, of_effort, of_force, of_value
 from nivel.elements.rows import Row, element
 from nivel.kernels.algebra.analytic import maximum, minimum, real
 from nivel.kernels.forces.wrench import add_coordinate_force

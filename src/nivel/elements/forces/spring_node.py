@@ -13,8 +13,8 @@ from typing import Annotated, ClassVar, Final, Literal
 import numpy as np
 from pydantic import BeforeValidator
 
+from nivel.elements.facts import Output, add_outputs, of_force
 from nivel.elements.kind import Kind
-from nivel.elements.output import Output, add_outputs, of_force
 from nivel.elements.rows import Row, element, several
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.forces.wrench import add_marker_force

@@ -17,10 +17,9 @@ from typing import Annotated, ClassVar, Final, Literal
 import numpy as np
 from pydantic import BeforeValidator
 
+from nivel.elements.facts import Output, StateFact, add_outputs, of_force, of_value
 from nivel.elements.kind import Kind
-from nivel.elements.output import Output, add_outputs, of_force, of_value
 from nivel.elements.rows import Row, element, several
-from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.forces.wrench import add_coordinate_force

@@ -8,8 +8,8 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 from pydantic import BeforeValidator
 
+from nivel.elements.facts import Output, add_outputs, is_angle, of_effort, of_force, of_value
 from nivel.elements.kind import Kind
-from nivel.elements.output import Output, add_outputs, is_angle, of_effort, of_force, of_value
 from nivel.elements.rows import Row, element, several
 from nivel.kernels.algebra.spatial import dot
 from nivel.kernels.algebra.vectors import opposite
@@ -20,10 +20,10 @@ from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
 from nivel.machine.core import coefficient as of
+from nivel.machine.core.coefficient import CoordinateLaw
 from nivel.machine.core.element import Between, BetweenMarkers, ForceElement
 from nivel.machine.core.record import Checked, Problem, superfluous
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneRecord, ThreeNumbers
-from nivel.machine.laws.coordinate_function import CoordinateLaw
 from nivel.machine.laws.time_function import SpringForce, SpringTorque
 from nivel.machine.units.quantity import Angle, Position, listed
 from nivel.machine.uses.coordinate_reference import CoordinateReference

@@ -23,6 +23,7 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import BeforeValidator
 
+from nivel.elements.facts import Output, StateFact
 from nivel.elements.forces.drives import (
     Drive,
     DriveRow,
@@ -36,20 +37,17 @@ from nivel.elements.forces.drives import (
     transmit,
 )
 from nivel.elements.kind import Kind
-from nivel.elements.output import Output
 from nivel.elements.rows import element
-from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import real, tanh
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import evaluate_function, table_value
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
-from nivel.machine.core.coefficient import NotNegative, Share
+from nivel.machine.core.coefficient import CoordinateEffortFunction, NotNegative, Share
 from nivel.machine.core.record import Checked, Problem
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord
-from nivel.machine.laws.coordinate_function import CoordinateEffortFunction
-from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import OneFunction, varying
+from nivel.machine.laws.varying_value import Table
 from nivel.machine.units.quantity import Quantity, Whole, listed
 from nivel.native.function import stage
 

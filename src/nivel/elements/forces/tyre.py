@@ -33,6 +33,7 @@ from pydantic import BeforeValidator
 
 from nivel.elements.contacts.height_field import HeightField
 from nivel.elements.contacts.heights import numbers_of, surface
+from nivel.elements.facts import Output, StateFact, add_outputs, of_force
 from nivel.elements.forces import magic_formula
 from nivel.elements.forces.magic_formula import (
     MOST_SLIP,
@@ -44,9 +45,7 @@ from nivel.elements.forces.magic_formula import (
     resistance,
 )
 from nivel.elements.kind import Kind
-from nivel.elements.output import Output, add_outputs, of_force
 from nivel.elements.rows import Row, element, several
-from nivel.elements.states import StateFact
 from nivel.kernels.algebra.analytic import absolute, arctan2, maximum, minimum, real
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.algebra.vectors import axis, minus, opposite, plus, seen, times, turned

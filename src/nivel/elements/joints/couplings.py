@@ -11,18 +11,16 @@ from itertools import combinations_with_replacement
 from math import pi
 from typing import Annotated, ClassVar, Final, Literal
 
-from nivel.elements.output import is_angle
+from nivel.elements.facts import is_angle
 from nivel.known import RowTable, SystemBuilder
 from nivel.lazy import dataclass
-from nivel.machine.core.coefficient import PositiveNumber, Truth
+from nivel.machine.core.coefficient import CoordinatePosition, PositiveNumber, Truth
 from nivel.machine.core.record import Checked, Name, Problem, superfluous
 from nivel.machine.given import Field, ManyNames, ManyNumbers, Maybe, TwoNames, TwoNumbers
-from nivel.machine.laws.coordinate_function import CoordinatePosition
 from nivel.machine.laws.python_law import PythonLaw
-from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction, signals_of
+from nivel.machine.laws.varying_value import Expression, Table, expression_of
 from nivel.machine.units.derivative import derivative
-from nivel.machine.units.expression import Expression, expression_of
 from nivel.machine.units.quantity import Length, PositiveLength, Scalar
 from nivel.machine.units.tree import Call, ExpressionError, Lookup, Node, Number, Operation, Signal, parts
 from nivel.machine.uses.coordinate_reference import CoordinateReference, Kind

@@ -8,19 +8,23 @@ from typing import Annotated, Any, ClassVar, Final, Literal
 import numpy as np
 from pydantic import BeforeValidator
 
+from nivel.elements.facts import is_angle
 from nivel.elements.joints.kind import AXES
-from nivel.elements.output import is_angle
 from nivel.errors import located
 from nivel.kernels.bodies.coordinate import ROTATION, TRANSLATION
 from nivel.known import RowTable, SystemBuilder
 from nivel.lazy import nivel
-from nivel.machine.core.coefficient import CoordinateRate, Truth
+from nivel.machine.core.coefficient import (
+    CoordinateAcceleration,
+    CoordinateMotion,
+    CoordinateRate,
+    CoordinateSpeed,
+    Truth,
+)
 from nivel.machine.core.orientation import AxisSequence
 from nivel.machine.core.record import GROUND, Checked, Name, Problem, superfluous
 from nivel.machine.given import Field, Maybe, OneRecord
-from nivel.machine.laws.coordinate_function import CoordinateAcceleration, CoordinateMotion, CoordinateSpeed
 from nivel.machine.laws.python_law import PythonLaw
-from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import (
     FourFunctions,
     OneFunction,
@@ -29,7 +33,7 @@ from nivel.machine.laws.time_function import (
     signals_of,
     varying,
 )
-from nivel.machine.units.expression import Expression
+from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.units.quantity import Direction, fault, listed
 from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import CoordinateReference, Kind, kind_of

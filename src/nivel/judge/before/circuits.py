@@ -29,9 +29,8 @@ from nivel.elements.circuits.spool_valves import SpoolValve
 from nivel.elements.circuits.tanks import Reservoir, Tank, Volume
 from nivel.judge.finding import Finding
 from nivel.lazy import dataclass
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.units.expression import Expression
 from nivel.machine.units.quantity import PlainVolume
 from nivel.machine.units.tree import ExpressionError, Time, leaves
 from nivel.machine.uses.hydraulic_uses import makers, ports_of

@@ -17,8 +17,8 @@ from nivel.machine.control.order import in_order, parts_of
 from nivel.machine.control.part import PartFunction, UnitOutput
 from nivel.machine.core.element import Between, BetweenMany, BetweenMarkers, End, Ends, ForceElement
 from nivel.machine.laws.python_law import PythonLaw
-from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
+from nivel.machine.laws.varying_value import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.signals.input import Event, Input, State
 from nivel.machine.signals.sensor import Sensor

@@ -16,10 +16,9 @@ from nivel.lazy import dataclass, nivel
 from nivel.machine.core.element import ForceElement
 from nivel.machine.laws.functions import functions_in
 from nivel.machine.laws.python_law import PythonLaw
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
-from nivel.machine.units.expression import Expression
 from nivel.machine.units.functions import SMOOTH
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.methods import chooses

@@ -1,7 +1,7 @@
 """Quantities of force elements: stiffness, damping and the like, with their bounds.
 
 What belongs to a joint coordinate is in metres or in radians: `OfCoordinate` asks the record's field `coordinate`,
-which must stand before, what kind it is.
+which must stand before, what kind it is; so does `OfCoordinateFunction` for what may vary.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from pydantic_core import CoreSchema, InitErrorDetails, core_schema
 
 from nivel.lazy import dataclass
 from nivel.machine.given import ManyNumbers, OneNumber
+from nivel.machine.laws.time_function import OneFunction, TimeFunction, Varying, written
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import (
     Quantity,
@@ -211,3 +212,41 @@ PositiveCoordinateStiffness = Annotated[OneNumber, OfCoordinate(COORDINATE_STIFF
 NotNegativeValue = Annotated[OneNumber, OfCoordinate(COORDINATE, "not negative")]
 CoordinateRate = Annotated[OneNumber, OfCoordinate(COORDINATE_RATE)]
 NotNegativeRate = Annotated[OneNumber, OfCoordinate(COORDINATE_RATE, "not negative")]
+
+
+@dataclass(frozen=True)
+class OfCoordinateFunction:
+    """Annotation of a field that is a TimeFunction, of the first of `kinds` for a length, of the second for an angle.
+
+    What is known of the coordinate stands in the fields before this one: `coordinate`, or `along` or `about` an axis.
+    """
+
+    kinds: tuple[str, str]
+    local: tuple[str, ...] = ()
+    smooth: bool = False
+
+    def read(self, value: Any, info: ValidationInfo) -> TimeFunction:
+        kind = self._kind(info.data or {})
+        return Varying(kind, self.local, self.smooth).read(value, info)
+
+    def _kind(self, given: Mapping[str, Any]) -> str | tuple[str, str]:
+        if given.get("along") is not None:
+            return self.kinds[0]
+        if given.get("about") is not None:
+            return self.kinds[1]
+        return kind_for(given.get("coordinate"), self.kinds)
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        serialization = core_schema.plain_serializer_function_ser_schema(written)
+        return core_schema.with_info_plain_validator_function(self.read, serialization=serialization)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return Varying(self.kinds, self.local, self.smooth).__get_pydantic_json_schema__(schema, handler)
+
+
+CoordinateLaw = Annotated[OneFunction, OfCoordinateFunction(COORDINATE_EFFORT, local=("value", "rate"))]
+CoordinateEffortFunction = Annotated[OneFunction, OfCoordinateFunction(COORDINATE_EFFORT)]
+CoordinateSpeed = Annotated[OneFunction, OfCoordinateFunction(COORDINATE_RATE)]
+CoordinateAcceleration = Annotated[OneFunction, OfCoordinateFunction(COORDINATE_ACCELERATION)]
+CoordinatePosition = Annotated[OneFunction, OfCoordinateFunction(COORDINATE)]
+CoordinateMotion = Annotated[OneFunction, OfCoordinateFunction(COORDINATE, smooth=True)]

@@ -11,8 +11,7 @@ from nivel.known import Block, Driver, State
 from nivel.lazy import dataclass, nivel
 from nivel.machine.core.record import Record
 from nivel.machine.laws.python_law import PythonLaw
-from nivel.machine.laws.table import Table
-from nivel.machine.units.expression import Expression
+from nivel.machine.laws.varying_value import Expression, Table
 
 AXES = "xyz"
 

@@ -16,7 +16,7 @@ from typing import Final
 
 from pydantic import ValidationError
 
-from nivel.machine.laws.table import read_table
+from nivel.machine.laws.varying_value import read_table
 from nivel.machine.units import tree
 from nivel.machine.units.arithmetic import NOT_FOR_PARAMETERS, RESERVED, bind, given
 from nivel.machine.units.grammar import parse

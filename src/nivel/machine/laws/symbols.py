@@ -18,8 +18,8 @@ from nivel.elements.joints import drawn
 from nivel.lazy import dataclass
 from nivel.machine.core.index import Index, Place
 from nivel.machine.core.record import entry
-from nivel.machine.laws.table import SIGNAL_PATH
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table
+from nivel.machine.laws.varying_value import SIGNAL_PATH
 from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, bind
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Parameters, signals

@@ -15,11 +15,10 @@ from pydantic_core import CoreSchema, core_schema
 from nivel.lazy import dataclass
 from nivel.machine.given import Given, Validated
 from nivel.machine.laws.python_law import PythonLaw, read_python_law
-from nivel.machine.laws.table import Table, read_table
+from nivel.machine.laws.varying_value import Expression, Table, read_table
 from nivel.machine.units import quantity
 from nivel.machine.units.arithmetic import fold, render
 from nivel.machine.units.derivative import derivative
-from nivel.machine.units.expression import Expression
 from nivel.machine.units.functions import INTERPOLATIONS
 from nivel.machine.units.measure import measure, readings
 from nivel.machine.units.slips import is_tonne_compared

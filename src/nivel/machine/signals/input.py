@@ -11,8 +11,8 @@ from pydantic import BeforeValidator, ValidationInfo
 from nivel.machine.core.coefficient import Truth
 from nivel.machine.core.record import Checked, Name, Problem, superfluous
 from nivel.machine.given import Field, Maybe, OneNumber, OneRecord, TwoNumbers
-from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import Measured, OneFunction, varying
+from nivel.machine.laws.varying_value import Table
 from nivel.machine.units.quantity import ANY, Duration, Quantity, Real, Whole, fault, listed, of_one_kind, shown
 
 Number = Annotated[OneNumber, Quantity(ANY)]

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from nivel.machine.laws.table import Table
+from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.units import tree
-from nivel.machine.units.expression import Expression
 from nivel.machine.units.functions import FUNCTIONS, SMOOTH, inner_parts, is_truth
 
 PI = 3.141592653589793

@@ -14,8 +14,7 @@ from nivel.kernels.record.record import Functions
 from nivel.lazy import dataclass, field
 from nivel.machine.control.part import PartFunction, UnitOutput
 from nivel.machine.laws.python_law import PythonLaw
-from nivel.machine.laws.table import Table
-from nivel.machine.units.expression import Expression
+from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.units.formula import Formula, LinearFunction, linear_function
 from nivel.machine.units.functions import SMOOTH
 from nivel.machine.units.tree import TIME as TIME_SYMBOL

@@ -15,10 +15,9 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
 from nivel.machine.laws.python_law import PythonLaw
-from nivel.machine.laws.table import Table
 from nivel.machine.laws.time_function import TimeFunction
+from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.units.arithmetic import evaluate
-from nivel.machine.units.expression import Expression
 from nivel.machine.units.sides import marks
 from nivel.machine.units.tree import TIME, ExpressionError, Lookup, Node, Time
 from nivel.system.laws.program import PlacedProgram

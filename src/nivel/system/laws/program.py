@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from nivel.kernels.record import program as kernel
 from nivel.kernels.record.function import NEAR
 from nivel.lazy import dataclass
-from nivel.machine.units.expression import Expression
+from nivel.machine.laws.varying_value import Expression
 from nivel.machine.units.formula import Formula
 from nivel.machine.units.functions import FUNCTIONS, PERIODIC, differentiated, is_truth, pieces
 from nivel.machine.units.sides import is_of_time_alone, jumps

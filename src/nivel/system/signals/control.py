@@ -7,7 +7,7 @@ from math import gcd
 
 import numpy as np
 
-from nivel.elements.states import StateFact
+from nivel.elements.facts import StateFact
 from nivel.errors import located
 from nivel.kernels.record.function import OUTPUT, STATE
 from nivel.kernels.record.record import NONE, Sampled

@@ -16,8 +16,7 @@ from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Actuated, Positions, Scales
 from nivel.known import Driver
 from nivel.lazy import dataclass
-from nivel.machine.laws.table import Table
-from nivel.machine.units.expression import Expression
+from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.trust import Item, Verdict, number
 from nivel.system.laws.integrated import integrated

@@ -1,4 +1,4 @@
-"""Values at points, with straight lines or a smooth curve between them."""
+"""Values that vary: at points, with straight lines or a smooth curve between them, or by arithmetic of `time` and signals."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from pydantic import ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from nivel.machine.core.record import unknown_word
+from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, evaluate, render
+from nivel.machine.units.derivative import derivative
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.functions import (
     FEWEST,
@@ -24,8 +26,18 @@ from nivel.machine.units.functions import (
     pieces,
 )
 from nivel.machine.units.measure import signal_dimensions
-from nivel.machine.units.quantity import ANY, Kind, expression_fault, fault, listed, read_quantity, reported, shown
-from nivel.machine.units.tree import TIME, ExpressionError, FaultyParameterError, Parameters
+from nivel.machine.units.quantity import (
+    ANY,
+    Kind,
+    bound_tree,
+    expression_fault,
+    fault,
+    listed,
+    read_quantity,
+    reported,
+    shown,
+)
+from nivel.machine.units.tree import TIME, ExpressionError, FaultyParameterError, Node, Parameters, signals
 from nivel.words.arguments import checked_arguments, checked_fields
 from nivel.words.wording import in_expressions
 
@@ -192,3 +204,47 @@ def _faults_of_columns(
 
 def _line(place: tuple[str | int, ...], message: PydanticCustomError) -> InitErrorDetails:
     return InitErrorDetails(type=message, loc=place, input=None)
+
+
+@checked_fields
+@dataclass(frozen=True)
+class Expression:
+    """Arithmetic of `time` [s] and signals, e.g. ``10 + 3*sin(2*pi*time)`` or ``-20*hinge.angle_rate``.
+
+    Once in a record, the text has SI numbers only, in Python's syntax except for the dots in names of signals.
+    """
+
+    text: str
+
+    @checked_arguments
+    def __call__(self, time: float, values: Mapping[str, float] | None = None) -> float:
+        """The value at `time` [s], SI. `values` are those of the signals by their paths.
+
+        Raises ExpressionError where there is none.
+        """
+        return evaluate(self.tree, time, values)
+
+    @cached_property
+    def tree(self) -> Node:
+        """The text as a tree without unbound names; `length`, `angle`, `value` and `rate` are local symbols."""
+        return bound_tree(self.text, {}, LOCAL_SYMBOLS)
+
+    @property
+    def signals(self) -> tuple[str, ...]:
+        """The paths of the signals, in the order in which they stand in the text; `time` is not a signal."""
+        return signals(self.tree)
+
+    @cached_property
+    def derivative(self) -> Expression:
+        """The exact derivative with respect to time.
+
+        Raises ExpressionError where there is none: corners, signals.
+        """
+        return expression_of(derivative(self.tree))
+
+
+def expression_of(tree: Node) -> Expression:
+    """The expression that `tree` is; its text may be longer than what is read from files."""
+    expression = Expression(render(tree))
+    vars(expression)["tree"] = tree  # as if computed already: cached_property keeps it there
+    return expression

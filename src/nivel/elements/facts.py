@@ -1,5 +1,5 @@
-"""States and outputs of elements as facts: all that the rest of nivel knows of a pressure, a bristle or a controller's memory, and names
-with their units and meaning, told once by a record.
+"""First-order states and outputs of elements as facts: all that the rest of nivel knows of a pressure, a bristle or a controller's memory,
+and what can be read of an element, with its units and meaning.
 """
 
 from __future__ import annotations

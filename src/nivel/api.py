@@ -433,7 +433,7 @@ class Machine(Model):
         chosen, rows = self.with_settings(given), nivel.analysis.sweep.variants.rows_of(values)
         plan = chosen.with_values(rows[0])._plan({*given, *self.origin.settings_outside})
         nivel.analysis.plan.compilation.build(_entries_of(plan, chosen.record), listener)
-        return nivel.analysis.sweep.batch.run_batch(
+        return nivel.analysis.sweep.sweep.run_batch(
             chosen, rows, tuple(_names(save)), threads=threads, listener=listener or Listener()
         )
 

@@ -75,8 +75,8 @@ import nivel.analysis.statics.free_coordinates
 import nivel.analysis.statics.run
 import nivel.analysis.statics.start
 import nivel.analysis.sweep
-import nivel.analysis.sweep.batch
 import nivel.analysis.sweep.outputs
+import nivel.analysis.sweep.patched
 import nivel.analysis.sweep.resolution
 import nivel.analysis.sweep.sweep
 import nivel.analysis.sweep.variant

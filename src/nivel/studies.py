@@ -84,7 +84,7 @@ class Study:
             record.verify,
             record.time_limit,
             record.judge,
-            nivel.analysis.sweep.variant_runs.sample_of(variants.values)
+            nivel.analysis.sweep.patched.sample_of(variants.values)
             if record.analysis == "run" and not record.verify
             else (),
         )

@@ -53,7 +53,7 @@ def test_a_number_that_is_not_patched_would_be_seen():
     """The comparison itself can fail: a factor is spoilt by a millionth."""
     machine = machine_of("mechanisms/slider-crank.yaml")
     found = learn(machine, [{"bodies.crank.mass": 20.0}, {"bodies.crank.mass": 30.0}])
-    found.patches[0].factors[...] *= 1.0 + 1e-6
+    found.patches[0].numbers.factors[...] *= 1.0 + 1e-6
     assert "bodies.mass" in differences(found, np.array([29.0]))
 
 

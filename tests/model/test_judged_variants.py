@@ -7,9 +7,9 @@ import pytest
 
 import nivel
 from nivel.analysis.sweep.outputs import Task
-from nivel.analysis.sweep.patched import UnsuitedError, learn
+from nivel.analysis.sweep.patched import WORTH_FORMULAS, UnsuitedError, learn, sample_of
 from nivel.analysis.sweep.variant import run_variant
-from nivel.analysis.sweep.variant_runs import WORTH_FORMULAS, JudgedRuns, judged_runs, sample_of
+from nivel.analysis.sweep.variant_runs import JudgedRuns, formulas_for
 from nivel.files import parse_machine
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -96,7 +96,7 @@ def test_variants_that_do_not_fit_are_prepared():
     np.testing.assert_allclose(patched.array("position"), prepared.array("position"), atol=1e-11)  # of the numbers
     with pytest.raises(UnsuitedError, match="`start` varies"):
         learn(machine, rows_of("rail.start.displacement", [0.1, 0.2]), judged=True)
-    assert judged_runs(machine, rows_of("rail.start.displacement", [0.1, 0.2])) is None
+    assert formulas_for(machine, rows_of("rail.start.displacement", [0.1, 0.2]), judged=True)[0] is None
     assert (
         run_variant(Task(machine, sample=tuple(rows_of("block.mass", [1, 2]))), {"block.mass": -1.0}).outcome
         == "refused"

@@ -6,7 +6,7 @@ changes its structure, or depends on two parameters together is left to those wh
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from time import thread_time
 from typing import Any, Final, NamedTuple
@@ -19,12 +19,12 @@ from nivel.analysis.preparation.memory import Array, MachineMemory, UnlikeError,
 from nivel.analysis.preparation.parameters import EQUAL, Numbers, Unfit, UnfitError, numbers_of
 from nivel.analysis.preparation.preparation import Prepared, SharedLoads, are_open
 from nivel.analysis.run.attempt import header_of
-from nivel.analysis.run.dynamics import Loop, march, start_loop, taken_events
+from nivel.analysis.run.dynamics import Loop, march, start_loop
 from nivel.analysis.run.history import refer_energies
 from nivel.analysis.run.prepared_state import BoundEntry, prepare
 from nivel.errors import NivelError
 from nivel.integrate.loop.loop import advance
-from nivel.integrate.loop.run import BUDGET, DONE_STEPS, FRAMES, STOPPED, Run
+from nivel.integrate.loop.run import BUDGET, FRAMES, STOPPED, Run
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import BUDGET_SPENT, DONE
 from nivel.lazy import dataclass, fields, is_dataclass, replace
@@ -40,6 +40,8 @@ from nivel.words.wording import seconds
 # multiplied by nothing may be missing, and away from round numbers, which others may be equal to
 SHARES: Final = np.array([0.0031, 0.9967, 0.3523, 0.7109])
 NOMINAL: Final = 0.4873
+# so many variants are worth the ones that are prepared to find formulas
+WORTH_FORMULAS: Final = 24
 # variants that are prepared to check all functions together
 CHECKED: Final = 3
 SEED: Final = 4
@@ -58,6 +60,17 @@ class TooLongError(Exception):
 
     def __init__(self, limit: float) -> None:
         super().__init__(f"it took longer than the time limit of {seconds(limit)}")
+
+
+def watch(limit: float | None) -> Callable[[float], None]:
+    """What raises TooLongError where this thread has computed for longer than `limit` [s] since now; None: never."""
+    begin = thread_time()
+
+    def look(_: float) -> None:
+        if limit is not None and thread_time() - begin > limit:
+            raise TooLongError(limit)
+
+    return look
 
 
 @dataclass(frozen=True)
@@ -113,11 +126,6 @@ class Patch(NamedTuple):
     words: NDArray[np.intp]
     numbers: Numbers
 
-    @property
-    def factors(self) -> Array:
-        """Those of the functions."""
-        return self.numbers.factors
-
 
 @dataclass(frozen=True)
 class Patches:
@@ -158,8 +166,10 @@ def read_values(values: Mapping[str, Any]) -> Array:
         raise UnsuitedError("a value is no quantity") from None
 
 
-def sampled(rows: Sequence[Mapping[str, Any]]) -> tuple[Mapping[str, Any], ...]:
-    """Those of the variants from which `learn` finds the same bounds, and some more; none where a value is no quantity."""
+def sample_of(rows: Sequence[Mapping[str, Any]]) -> tuple[Mapping[str, Any], ...]:
+    """Those of the variants from which `learn` finds the same bounds, and some more; none where they are few, or a value is no quantity."""
+    if len(rows) < WORTH_FORMULAS:
+        return ()
     try:
         xs = np.array([read_values(row) for row in rows])
     except UnsuitedError:
@@ -315,24 +325,19 @@ class PatchedRuns:
         refer_energies(self.blank.prepared, self.blank.run.y)
 
     def _advanced(self, run: Run, limit: float | None) -> Array | None:
-        begin, status = thread_time(), BUDGET_SPENT
+        begin, look, status = thread_time(), watch(limit), BUDGET_SPENT
         while status == BUDGET_SPENT:
             run.counter[BUDGET] = BUDGET_OF_ALL if limit is None else WATCHED
             status = self._advance()
             self.loop_seconds = thread_time() - begin
-            if limit is not None and status == BUDGET_SPENT and self.loop_seconds > limit:
-                raise TooLongError(limit)
+            if status == BUDGET_SPENT:
+                look(self.loop_seconds)
         return run.frames[: run.counter[FRAMES]] if status == DONE else None
 
     def _looked_at(self, x: Array, limit: float | None) -> Array | None:
         """The same where steps are looked at for narrow features of functions, which are those of the variant."""
-        begin, plan, prepared = thread_time(), self.blank.plan, self.blank.prepared
+        look, plan, prepared = watch(limit), self.blank.plan, self.blank.prepared
         machine = self.found.base.with_values(dict(zip(self.found.paths, x.tolist(), strict=True))).record
-
-        def look(_: float) -> None:
-            if limit is not None and thread_time() - begin > limit:
-                raise TooLongError(limit)
-
         sink = Memory(plan.settings.frames + 1)
         sink.begin(self._header)
         finished = march(
@@ -346,15 +351,6 @@ class PatchedRuns:
         """The event that ended the last run."""
         number = self.blank.run.counter[STOPPED]
         return self.blank.prepared.motion.system.events[number - 1] if number else ""
-
-    @property
-    def steps(self) -> int:
-        """Steps of the last run."""
-        return int(self.blank.run.counter[DONE_STEPS])
-
-    def events(self) -> list[Any]:
-        """The events of the last run."""
-        return taken_events(self.blank.run, self.blank.prepared.motion.system.events)
 
     def result(self, frames: Array) -> Result:
         """Frames with their names. Facts beside the frames are those of the nominal machine."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import faulthandler
 import os
 import pickle
 import threading
@@ -11,7 +12,7 @@ from contextlib import suppress
 from queue import SimpleQueue
 from threading import Lock
 from time import monotonic
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from nivel.analysis.sweep.outputs import Task
 from nivel.analysis.sweep.variant import KILLED, VariantRun, at_once, run_variants
@@ -19,7 +20,7 @@ from nivel.analysis.sweep.variant_runs import TIMED_OUT
 from nivel.errors import ModelError
 from nivel.extras import needed
 from nivel.lazy import distributed
-from nivel.native.workers import EndedError, Process, signal_of
+from nivel.native.workers import EndedError, Process, serve, signal_of
 from nivel.words.wording import seconds
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ ONE_THREAD: Final = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS
 # number of the variant, its task, its values by path
 Job = tuple[int, Task, Mapping[str, Any]]
 Group = Sequence[Job]
+T = TypeVar("T")
 
 
 def run_in_processes(
@@ -48,7 +50,7 @@ def run_in_processes(
     working = len(workers)
     try:
         while working or (here and left):
-            if here and finished.empty() and (group := _next(left)) is not None:
+            if here and finished.empty() and (group := next_of(left)) is not None:
                 yield from run_group(group)
                 continue
             match finished.get():
@@ -64,7 +66,8 @@ def run_in_processes(
             worker.end()
 
 
-def _next(left: deque[Group]) -> Group | None:
+def next_of(left: deque[T]) -> T | None:
+    """What no other thread has taken; None where nothing is left."""
     try:
         return left.popleft()
     except IndexError:
@@ -85,7 +88,7 @@ def run_group(group: Group) -> Iterator[tuple[int, VariantRun]]:
 
 def _serve(worker: Worker, left: deque[Group], finished: SimpleQueue[Any]) -> None:
     try:
-        while (group := _next(left)) is not None:
+        while (group := next_of(left)) is not None:
             runs = worker.run(group[0][1], [values for _, _, values in group])
             for (number, _, _), run in zip(group, runs, strict=True):
                 finished.put((number, run))
@@ -103,7 +106,7 @@ class Worker:
 
     def _start(self) -> None:
         self._process = Process(
-            "nivel.analysis.sweep.worker", {"env": {**os.environ, **dict.fromkeys(ONE_THREAD, "1")}}
+            "nivel.analysis.sweep.processes", {"env": {**os.environ, **dict.fromkeys(ONE_THREAD, "1")}}
         )
         self._task: Task | None = None
         self._lives = True
@@ -129,6 +132,28 @@ class Worker:
         """Stop it, whatever it does."""
         self._ended = True
         self._process.end()
+
+
+def main() -> None:
+    """In a worker: compute variants until the input ends. A job is a task, or None for the one before, and values by path of each of them.
+
+    What goes on for longer than the time limit of the task ends the process, whatever it does.
+    """
+    task: Any = None
+    with open(os.devnull, "w", encoding="utf-8") as nowhere:
+
+        def answer(job: Any) -> Any:
+            nonlocal task
+            sent, rows = job
+            task = sent or task
+            if task.time_limit is not None:
+                faulthandler.dump_traceback_later(task.time_limit, exit=True, file=nowhere)
+            try:
+                return [*run_variants(task, rows)]
+            finally:
+                faulthandler.cancel_dump_traceback_later()
+
+        serve(answer)
 
 
 AHEAD: Final = 2  # tasks that are submitted for each thread of the cluster, so that none waits for the next

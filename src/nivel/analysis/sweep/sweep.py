@@ -1,40 +1,55 @@
-"""A sweep: variants run here while they are quick, else in processes on all processors."""
+"""A sweep: variants run here while they are quick, else in processes on all processors.
+
+A batch: many runs of one machine with other numbers, without trust reports, in the memory and threads of this process.
+"""
 
 from __future__ import annotations
 
 import sys
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, closing, contextmanager
 from time import perf_counter
-from typing import Any
+from typing import Any, Final
 
 import xarray
 
 from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.log import Listener, Log, bar_of
 from nivel.analysis.progress.pacing import interruptible
-from nivel.analysis.sweep.outputs import Task
+from nivel.analysis.sweep.outputs import Task, usual_names
+from nivel.analysis.sweep.patched import WORTH_FORMULAS
 from nivel.analysis.sweep.processes import (
     Group,
     Job,
     client_of,
     grouped,
+    next_of,
     run_group,
     run_in_processes,
     run_on_cluster,
     threads_of,
 )
-from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, collected, look_for_lanes, row_of, run_of
-from nivel.analysis.sweep.variants import Variants
+from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, collected, kept_of, look_for_lanes, row_of, run_of
+from nivel.analysis.sweep.variant_runs import Ran, Values, VariantRuns, formulas_for
+from nivel.analysis.sweep.variants import ROW, Variants
 from nivel.errors import ModelError
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Sweep, Variant
-from nivel.lazy import dataclass, rich
+from nivel.lazy import dataclass, nivel, rich
+from nivel.model import Model
+from nivel.native.processor import lane_count
+from nivel.results.result import Result
 
 # A process takes about this long to start [s]; what is done sooner is done here.
 WORTH_A_PROCESS = 2.0
 Heard = Callable[[int, VariantRun], None]
+FACTS_OF_BATCH: Final = {
+    "outcome": "done, stopped by an event, failed, refused, or not run",
+    "reason": "why it was stopped, failed or refused",
+    "end_time": "time reached",
+}
 
 
 @dataclass(frozen=True)
@@ -164,6 +179,72 @@ def _refuse_if_none_started(runs: Sequence[VariantRun]) -> None:
     reasons = {run.reason for run in runs if run.outcome == "refused"}
     if sum(run.outcome == "refused" for run in runs) == len(runs):
         raise ModelError(sorted(reasons)[0])
+
+
+def run_batch(
+    base: Model, rows: Sequence[Values], save: Sequence[str], *, threads: int | None, listener: Listener
+) -> xarray.Dataset:
+    """All variants, along the dimension `variant`. rows : values by path of each. save : names of results; none: joint coordinates and
+    sensors.
+
+    The first variant is run apart, so that a name in `save` that is none is told at once. Interrupted by Ctrl-C, it returns what was
+    computed. Raises ModelError where no variant can be run.
+    """
+    begin = perf_counter()
+    listener.say(f"running {len(rows)} variants", float(len(rows)))
+    first = _first(base, rows)
+    names = tuple(save) or usual_names(first)
+    for name in names:
+        first.selection(name)
+    patches, why = formulas_for(base, rows) if len(rows) >= WORTH_FORMULAS else (None, "there are few variants")
+    runs = VariantRuns(base, patches)
+    runs.look_for_lanes(len(rows) * float(first.timing.get("loop_seconds", 0.0)), listener)
+    threads = threads or nivel.native.workers.processors()
+    left, kept = deque(range(0, len(rows), lane_count())), [VariantRun(NOT_RUN)] * len(rows)
+    done = [0]
+
+    with interruptible() as interrupted:
+
+        def work(_: int) -> None:
+            runs = VariantRuns(base, patches)
+            while not interrupted() and (first := next_of(left)) is not None:
+                for number, ran in enumerate(runs.run_all(rows[first : first + lane_count()]), first):
+                    kept[number] = kept_of(ran, names)
+                    done[0] += 1
+                    if listener.progress is not None:
+                        listener.progress(float(done[0]))
+
+        if threads == 1 or patches is None:
+            work(0)
+        else:
+            with ThreadPoolExecutor(threads) as pool:
+                list(pool.map(work, range(threads)))
+    _refuse_if_none_started(kept)
+    variants = Variants(
+        tuple(rows), (ROW,), (len(rows),), {path: (ROW, tuple(row[path] for row in rows)) for path in rows[0]}
+    )
+    attributes = {
+        "machine": base.name,
+        "verdict": "",
+        "headline": "not judged: a batch has no trust reports",
+        "seconds": perf_counter() - begin,
+        "loop_seconds": sum(each.loop_seconds for each in kept),
+        "patched": int(patches is not None),
+        "in_lanes": sum(each.in_lanes for each in kept) / len(kept),
+        "not_in_lanes": runs.not_in_lanes,
+        "prepared_because": why,
+    }
+    return collected(variants, kept, {}, attributes, FACTS_OF_BATCH)
+
+
+def _first(base: Model, rows: Sequence[Values]) -> Result:
+    """The result of the first variant that has one. Raises ModelError where none has."""
+    ran = Ran("refused")
+    for row in rows:
+        ran = VariantRuns(base).run(row)
+        if ran.result is not None:
+            return ran.result
+    raise ModelError(ran.reason)
 
 
 @contextmanager

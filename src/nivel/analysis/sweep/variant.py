@@ -16,17 +16,16 @@ from nivel.analysis.progress.journal import Row, fingerprint, packed, unpacked
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.simulate import simulate
 from nivel.analysis.sweep.outputs import Found, Number, OutputFailedError, Task, outputs_of, usual_names
-from nivel.analysis.sweep.variant_runs import JudgedRuns, Ran, VariantRuns, analysed, formulas_for, judged_runs
+from nivel.analysis.sweep.variant_runs import JudgedRuns, Ran, VariantRuns, analysed, formulas_for, tried
 from nivel.analysis.sweep.variants import Variants
-from nivel.errors import ModelError, NivelError, SolveError, retold
+from nivel.errors import ModelError, retold
 from nivel.lazy import dataclass, field, replace
 from nivel.machine.study.parameter import Output
-from nivel.model import Model
 from nivel.native.processor import lane_count
 from nivel.results.analyses.linear_model import LinearModel
 from nivel.results.result import Result
 
-DONE, STOPPED, FAILED, REFUSED, NOT_RUN = "done", "stopped", "failed", "refused", "not run"
+FAILED, NOT_RUN = "failed", "not run"
 KILLED: Final = "killed"
 ENDLESS: Final = 1e9  # s that second runs may go on: how far they come may not depend on how busy a processor is
 
@@ -71,27 +70,7 @@ def run_variant(task: Task, values: Mapping[str, Any]) -> VariantRun:
 
     Raises ModelError where the result has no name that is saved or that an output asks for.
     """
-    if not task.judge:
-        return _kept_unjudged(task, _unjudged(task).run(values))
-    reason, failed = "", False
-    try:
-        machine = task.machine.with_values(values) if values else task.machine
-        found = _computed(machine, task, values)
-    except SolveError as error:
-        if not isinstance(error.result, Result):
-            return VariantRun(FAILED, str(error), error.time)
-        found, reason, failed = error.result, str(error), True
-    except ModelError as error:
-        return VariantRun(REFUSED, str(error))
-    except NivelError as error:
-        return VariantRun(FAILED, str(error))
-    if isinstance(found, Result) and found.outcome == "interrupted":
-        return VariantRun(NOT_RUN)
-    if isinstance(found, Result) and found.stopped_by and not failed:
-        reason = f"event {found.stopped_by}"
-    outcome = FAILED if failed else STOPPED if reason else DONE
-    kept = _kept(found, outcome, reason, task)
-    return kept if failed else _with_outputs(kept, found, task)
+    return _with_outputs(tried(lambda: _computed(task, values)) if task.judge else _runs_of(task).run(values), task)
 
 
 def run_variants(task: Task, rows: Sequence[Mapping[str, Any]]) -> Iterator[VariantRun]:
@@ -99,8 +78,8 @@ def run_variants(task: Task, rows: Sequence[Mapping[str, Any]]) -> Iterator[Vari
     if task.judge or len(rows) == 1:
         yield from (run_variant(task, values) for values in rows)
         return
-    for ran in _unjudged(task).run_all(rows):
-        yield _kept_unjudged(task, ran)
+    for ran in _runs_of(task).run_all(rows):
+        yield _with_outputs(ran, task)
 
 
 def at_once(task: Task) -> int:
@@ -113,12 +92,16 @@ def look_for_lanes(task: Task, seconds: float, listener: Listener) -> str:
     compiling."""
     if at_once(task) == 1:
         return "each has a trust report" if task.judge else "they are few, or have a time limit"
-    _unjudged(task).look_for_lanes(seconds, listener)
-    return _unjudged(task).not_in_lanes
+    _runs_of(task).look_for_lanes(seconds, listener)
+    return _runs_of(task).not_in_lanes
 
 
-def _with_outputs(kept: VariantRun, found: Found, task: Task) -> VariantRun:
-    """With the outputs; failed where functions of the user fail, and with the others all the same. Raises ModelError as `run_variant`."""
+def _with_outputs(ran: Ran, task: Task) -> VariantRun:
+    """What is kept, with the outputs unless it failed; failed where functions of the user fail, and with the others all the same. Raises
+    ModelError as `run_variant`."""
+    run, found = _judged(ran, task) if task.judge else kept_of(ran, _names(task, ran)), ran.result
+    if found is None or run.outcome == FAILED:
+        return run
     numbers, failures = dict[str, Number](), list[str]()
     for name, output in task.outputs.items():
         try:
@@ -127,46 +110,30 @@ def _with_outputs(kept: VariantRun, found: Found, task: Task) -> VariantRun:
             failures.append(str(error))
     told: dict[str, Any] = {"outcome": FAILED, "reason": "; ".join(failures)} if failures else {}
     lacks = [f"{name}, which {number.lacks}" for name, number in numbers.items() if number.doubt]
-    if lacks and kept.verdict:
+    if lacks and run.verdict:
         trust = found.trust.of_derived(*lacks)
         told |= {"verdict": trust.light, "verified": trust.verified, "headline": trust.headline}
-    return replace(kept, outputs=numbers, **told)
+    return replace(run, outputs=numbers, **told)
 
 
 class _Last:
-    """Runs of the last task, patched where their numbers follow formulas: all variants of a study have the same."""
+    """Runs of the last task: all variants of a study have the same."""
 
     task: Task | None = None
-    judged: JudgedRuns | None = None
-    unjudged: VariantRuns | None = None
-
-    @classmethod
-    def of(cls, task: Task) -> type[_Last]:
-        """Those of `task`."""
-        if cls.task is not task:
-            cls.judged = cls.unjudged = None
-            if task.judge:
-                cls.judged = judged_runs(task.machine, task.sample) if task.sample else None
-            else:
-                patches = formulas_for(task.machine, task.sample)[0] if task.sample else None
-                cls.unjudged = VariantRuns(task.machine, patches)
-            cls.task = task
-        return cls
+    runs: Any = None
 
 
-def _unjudged(task: Task) -> VariantRuns:
-    """Runs without trust reports."""
-    runs = _Last.of(task).unjudged
-    assert runs is not None
-    return runs
+def _runs_of(task: Task) -> Any:
+    """Runs of a task, patched where their numbers follow formulas: `VariantRuns`; with trust reports `JudgedRuns`, or None."""
+    if _Last.task is not task:
+        patches = formulas_for(task.machine, task.sample, judged=task.judge)[0] if task.sample else None
+        _Last.runs = patches and JudgedRuns(patches) if task.judge else VariantRuns(task.machine, patches)
+        _Last.task = task
+    return _Last.runs
 
 
-def _kept_unjudged(task: Task, ran: Ran) -> VariantRun:
-    """What is kept of a run without a trust report. Raises ModelError as `run_variant`."""
-    if ran.result is None:
-        return VariantRun(ran.outcome, ran.reason)
-    kept = kept_of(ran, task.save or (() if task.outputs else usual_names(ran.result)))
-    return kept if ran.outcome == FAILED else _with_outputs(kept, ran.result, task)
+def _names(task: Task, ran: Ran) -> Sequence[str]:
+    return task.save or (() if task.outputs or ran.result is None else usual_names(ran.result))
 
 
 def kept_of(ran: Ran, save: Sequence[str]) -> VariantRun:
@@ -182,10 +149,11 @@ def kept_of(ran: Ran, save: Sequence[str]) -> VariantRun:
     )
 
 
-def _computed(machine: Model, task: Task, values: Mapping[str, Any]) -> Found:
+def _computed(task: Task, values: Mapping[str, Any]) -> Found:
     """Raises NivelError."""
+    machine = task.machine.with_values(values) if values else task.machine
     if task.analysis == "run":
-        patched = None if task.verify else _Last.of(task).judged
+        patched = None if task.verify else _runs_of(task)
         if patched is not None and (found := patched.run(machine, values)) is not None:
             return found
         plan = plan_run(machine.record, machine.origin.settings_outside)
@@ -196,18 +164,20 @@ def _computed(machine: Model, task: Task, values: Mapping[str, Any]) -> Found:
     return analysed(machine, task.analysis, settings)
 
 
-def _kept(found: Found, outcome: str, reason: str, task: Task) -> VariantRun:
+def _judged(ran: Ran, task: Task) -> VariantRun:
+    """What is kept of a variant with its trust report. Raises ModelError as `run_variant`."""
+    found = ran.result
+    if found is None:
+        return VariantRun(ran.outcome, ran.reason, ran.end_time)
+    run = VariantRun(ran.outcome, ran.reason, _end(found))
+    if isinstance(found, Result):
+        run = replace(kept_of(ran, _names(task, ran)), loop_seconds=float(found.timing.get("loop_seconds", 0.0)))
+    elif task.save:
+        raise ModelError("histories are kept of runs, statics and kinematics; take numbers with `outputs`")
     trust = found.trust
     error = np.nan if trust.accuracy_estimate is None else trust.accuracy_estimate + (trust.elements_estimate or 0.0)
-    about = VariantRun(outcome, reason, _end(found), trust.light, trust.verified, trust.headline, error)
-    if not isinstance(found, Result):
-        if task.save:
-            raise ModelError("histories are kept of runs, statics and kinematics; take numbers with `outputs`")
-        return about
-    save = task.save or (() if task.outputs else usual_names(found))
-    loop = float(found.timing.get("loop_seconds", 0.0))
-    saved = {name: _saved(found, name) for name in save}
-    return replace(about, loop_seconds=loop, time=found.time if saved else about.time, saved=saved)
+    told = {"verdict": trust.light, "verified": trust.verified, "headline": trust.headline}
+    return replace(run, **told, estimated_error=error)
 
 
 def _end(found: Found) -> float:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from time import thread_time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from math import nan
 from typing import Any, Final
 
 from nivel.analysis.plan.plan import plan_run
@@ -12,7 +12,8 @@ from nivel.analysis.run.attempt import header_of
 from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.simulate import close_run, simulate
 from nivel.analysis.sweep.lane_runs import LaneRuns
-from nivel.analysis.sweep.patched import PatchedRuns, Patches, TooLongError, UnsuitedError, learn, read_values, sampled
+from nivel.analysis.sweep.outputs import Found
+from nivel.analysis.sweep.patched import PatchedRuns, Patches, TooLongError, UnsuitedError, learn, read_values, watch
 from nivel.errors import ModelError, NivelError, SolveError, refuse
 from nivel.judge.after.subject import run_of
 from nivel.judge.before.refusals import deep_starts
@@ -25,16 +26,13 @@ Values = Mapping[str, Any]
 
 TIMED_OUT: Final = "timed out"
 
-# so many variants are worth the ones that are prepared to find formulas
-WORTH_FORMULAS: Final = 24
-
 
 @dataclass(frozen=True)
 class Ran:
     """A variant, computed. outcome, reason : as of a `VariantRun`. loop_seconds : in the compiled loop.
 
     result : what was computed, of the kind that the analysis has, valid until the next of the same `VariantRuns`; None where nothing was.
-    in_lanes : together with others.
+    in_lanes : together with others. end_time [s] : where it failed without a result.
     """
 
     outcome: str
@@ -42,6 +40,26 @@ class Ran:
     result: Any = None
     loop_seconds: float = 0.0
     in_lanes: bool = False
+    end_time: float = nan
+
+
+def tried(compute: Callable[[], Found]) -> Ran:
+    """What is computed, with its faults and failures, which are not raised."""
+    try:
+        found = compute()
+    except SolveError as error:
+        result = error.result if isinstance(error.result, Result) else None
+        return Ran("failed", str(error), result, end_time=error.time)
+    except ModelError as error:
+        return Ran("refused", str(error))
+    except NivelError as error:
+        return Ran("failed", str(error))
+    if not isinstance(found, Result):
+        return Ran("done", "", found)
+    if found.outcome == "interrupted":
+        return Ran("not run")
+    outcome, reason = ("stopped", f"event {found.stopped_by}") if found.stopped_by else ("done", "")
+    return Ran(outcome, reason, found, float(found.timing.get("loop_seconds", 0.0)))
 
 
 class VariantRuns:
@@ -91,37 +109,13 @@ class VariantRuns:
                 event = self._patched.stopped_by
                 outcome, reason = ("stopped", f"event {event}") if event else ("done", "")
                 return Ran(outcome, reason, self._patched.result(frames), self._patched.loop_seconds)
-        return self._prepared(values)
+        return tried(lambda: self._prepared(values))
 
-    def _prepared(self, values: Values) -> Ran:
-        try:
-            machine = self._base.with_values(values) if values else self._base
-            plan = plan_run(machine.record, machine.origin.settings_outside)
-            result = simulate(plan, judge=False, listener=self._watch())
-        except SolveError as error:
-            return Ran("failed", str(error), error.result if isinstance(error.result, Result) else None)
-        except ModelError as error:
-            return Ran("refused", str(error))
-        except NivelError as error:
-            return Ran("failed", str(error))
-        if result.outcome == "interrupted":
-            return Ran("not run")
-        loop = float(result.timing.get("loop_seconds", 0.0))
-        if result.stopped_by:
-            return Ran("stopped", f"event {result.stopped_by}", result, loop)
-        return Ran("done", "", result, loop)
-
-    def _watch(self) -> Listener | None:
-        """Ends a run that takes too long."""
-        if self._limit is None:
-            return None
-        limit, begin = self._limit, thread_time()
-
-        def look(_: float) -> None:
-            if thread_time() - begin > limit:
-                raise TooLongError(limit)
-
-        return Listener(progress=look)
+    def _prepared(self, values: Values) -> Result:
+        watched = None if self._limit is None else Listener(progress=watch(self._limit))
+        machine = self._base.with_values(values) if values else self._base
+        plan = plan_run(machine.record, machine.origin.settings_outside)
+        return simulate(plan, judge=False, listener=watched)
 
 
 class AnalysedVariants:
@@ -134,13 +128,8 @@ class AnalysedVariants:
 
     def run(self, values: Values) -> Ran:
         """The machine with these values."""
-        try:
-            found = analysed(self._base.with_values(values), self._analysis, self._settings)
-            return Ran("done", getattr(found, "no_modes", ""), found)
-        except ModelError as error:
-            return Ran("refused", str(error))
-        except NivelError as error:
-            return Ran("failed", str(error))
+        ran = tried(lambda: analysed(self._base.with_values(values), self._analysis, self._settings))
+        return replace(ran, reason=ran.reason or getattr(ran.result, "no_modes", ""))
 
 
 def analysed(machine: Model, analysis: str, settings: Mapping[str, Any]) -> Any:
@@ -148,15 +137,10 @@ def analysed(machine: Model, analysis: str, settings: Mapping[str, Any]) -> Any:
     return getattr(machine, analysis)(**settings)
 
 
-def sample_of(rows: Sequence[Values]) -> tuple[Values, ...]:
-    """Some of the variants, from which formulas for all of them are found; none where they are few."""
-    return sampled(rows) if len(rows) >= WORTH_FORMULAS else ()
-
-
-def formulas_for(base: Model, rows: Sequence[Values]) -> tuple[Patches | None, str]:
-    """Formulas for these variants, or why there are none, in words."""
+def formulas_for(base: Model, rows: Sequence[Values], *, judged: bool = False) -> tuple[Patches | None, str]:
+    """Formulas for these variants, or why there are none, in words. judged : as of `learn`."""
     try:
-        patches = learn(base, rows)
+        patches = learn(base, rows, judged=judged)
         PatchedRuns(patches)
     except UnsuitedError as problem:
         return None, str(problem)
@@ -190,11 +174,3 @@ class JudgedRuns:
         if finished.outcome == "failed":
             return None
         return close_run(sink, run_of(plan, prepared, finished, sink.result()), {})
-
-
-def judged_runs(base: Model, sample: Sequence[Mapping[str, Any]]) -> JudgedRuns | None:
-    """Runs of the variants of which these are a sample; None where their numbers follow from the parameters by no formulas."""
-    try:
-        return JudgedRuns(learn(base, sample, judged=True))
-    except UnsuitedError:
-        return None

@@ -189,9 +189,7 @@ Frequency = Annotated[OneNumber, Quantity("frequency", positive=True)]
 NotNegativeTorque = Annotated[OneNumber, Quantity("torque"), NotNegative]
 Share = Annotated[OneNumber, Quantity("number"), AfterValidator(_fraction)]
 Pressure = Annotated[OneNumber, Quantity("pressure", positive=True)]
-PoissonRatio = Annotated[
-    OneNumber, Quantity("number"), _where(lambda value: -1 < value <= 0.5, "a number above -1 and up to 0.5")
-]
+PoissonRatio = Annotated[OneNumber, Quantity("number"), AfterValidator(_poisson_ratio)]
 Restitution = Annotated[OneNumber, Quantity("number"), AfterValidator(_fraction)]
 Exponent = Annotated[OneNumber, Quantity("number"), AfterValidator(_exponent)]
 

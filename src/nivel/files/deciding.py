@@ -48,11 +48,13 @@ def _decided(node: Node) -> Iterator[str]:
     match node:
         case Operation(symbol) if symbol in COMPARISONS and not varies(node):
             yield from names(node)
-        case Call(function, arguments) if (kind := FUNCTIONS.get(function)) is None:
-            for part in arguments:
-                yield from () if varies(part) else names(part)
-        case Call(_, arguments) if kind.sides is not None:
-            for pair in kind.sides(lambda *each: not any(map(varies, each)), *arguments):
-                yield from (name for each in pair if each is not None for name in names(each))
-        case Call(_, arguments) if kind.jumps and not any(map(varies, arguments)):
-            yield from names(node)
+        case Call(function, arguments):
+            kind = FUNCTIONS.get(function)
+            if kind is None:
+                for part in arguments:
+                    yield from () if varies(part) else names(part)
+            elif kind.sides is not None:
+                for pair in kind.sides(lambda *each: not any(map(varies, each)), *arguments):
+                    yield from (name for each in pair if each is not None for name in names(each))
+            elif kind.jumps and not any(map(varies, arguments)):
+                yield from names(node)

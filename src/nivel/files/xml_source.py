@@ -41,7 +41,7 @@ class Element:
 
     def every(self) -> Iterator[Element]:
         """The element and all that stand in it, in the order of the document."""
-        pending = [self]
+        pending: list[Element] = [self]
         while pending:
             yield (element := pending.pop())
             pending += reversed(element.children)

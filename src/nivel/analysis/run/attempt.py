@@ -7,6 +7,7 @@ import time as clock_of_python
 from collections.abc import Callable, Iterator
 from functools import cached_property
 from math import ceil, gcd, inf, lcm
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -192,11 +193,12 @@ def resampled(plan: Plan) -> Iterator[Plan]:
     """The plan with samples of the waves in lines at other times, farther apart or, where these are too few, closer: what a wave loses
     between two samples is an error too. None where no line is a delay."""
     machine = plan.machine
-    if any(each.type == "line" and each.model == "delay" for each in machine.hydraulics):
+    components: tuple[Any, ...] = machine.hydraulics
+    if any(each.type == "line" and each.model == "delay" for each in components):
         for share in (FINER, 1.0 / FINER):
             lines = [
                 each.replace(sample_time=share * each.sample_time) if each.type == "line" else each
-                for each in machine.hydraulics
+                for each in components
             ]
             yield _of(plan, machine.replace(hydraulics=tuple(lines)))
 

@@ -121,7 +121,7 @@ class Loop(NamedTuple):
 class LoopOnNumbers:
     """A loop on other numbers, `whole` or `packed`. machine, run : its records on these. laws : addresses of its functions."""
 
-    def __init__(self, loop: Loop, numbers: str, machine: Any, run: Run, laws: Sequence[int]) -> None:
+    def __init__(self, loop: Loop, numbers: str, machine: Any, run: Any, laws: Sequence[int]) -> None:
         def families(addresses: NDArray[np.uint64]) -> NDArray[np.uint64]:
             found = [getattr(FAMILIES[int(each)], numbers).address if each else 0 for each in addresses]
             return np.array(found, dtype=np.uint64)

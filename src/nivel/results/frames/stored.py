@@ -115,7 +115,7 @@ class StoredContents:
             raise ValueError(f"it claims {self.frame_count} frames, which it does not hold")
         datasets = {name: _dataset(file, name) for name in map(str, file)}
         # HDF5 searches the whole file for the name of what a reference leads to
-        scales = {_address(each): name for name, each in datasets.items() if each.is_scale}
+        scales = {each.id: name for name, each in datasets.items() if each.is_scale}
         for name, dataset in datasets.items():
             if name == "time":
                 continue
@@ -127,7 +127,7 @@ class StoredContents:
                 self.coordinates[name] = tuple(dataset.asstr()[()])
                 continue
             own = [dimension[0] for dimension in dataset.dims]
-            dims = tuple(scales[_address(each)] for each in own)
+            dims = tuple(scales[each.id] for each in own)
             if dataset.shape[1:] != tuple(each.shape[0] for each in own[1:]):
                 raise ValueError(f"`{name}` has {dataset.shape[1:]} numbers a frame, and other names of them")
             columns = slice(0, int(np.prod(dataset.shape[1:])))
@@ -170,11 +170,6 @@ def _dataset(file: h5py.File, name: str) -> Any:
     if not isinstance(dataset, h5py.Dataset) or dataset.is_virtual or dataset.external:
         raise ValueError(f"`{name}` is no variable, or one of another file")
     return dataset
-
-
-def _address(dataset: Any) -> int:
-    """Where it stands in its file."""
-    return int(h5py.h5o.get_info(dataset.id).addr)
 
 
 @contextmanager

@@ -59,6 +59,7 @@ kinks: Kinks and jumps of the equations of motion at the state of linear equatio
 loads, sampling: Loads that the steps of a run miss, in whole or in part, and functions that change between two samples
 missed_events, still: What had no part in a run: events that never came, and machines of which nothing moves
 laden: Loads of tyres beyond those for which their curves are given
+soil, spilt: Soil that was moved and carried: whether its volume was kept, and whether some fell beyond the border of its heights
 losses: Losses of a translation: what the machine file of another program's model has under `left_out`
 body_mesh, modes, vibration_modes: Sufficiency of the modes of a flexible body for its run: how far modes that it leaves out would bend
     it, under the loads that it bore

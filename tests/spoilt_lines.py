@@ -54,8 +54,12 @@ NAMED = [
              "r * fr + lean * fy", verification("tyres")),
     Spoilt("tyre: its curve before the peak", "elements/forces/tyre.py", "1.0 + n * (n + slope * s_m / f_m - 2.0)",
              "1.0 + n * (n + slope * s_m / f_m - 1.9)", verification("tyres")),
+    Spoilt("soil: cohesion of the wedge", "elements/contacts/soil_cells.py", "np.sin(beta + phi) + held", "np.sin(beta + phi) + 0.9 * held",
+             verification("soil")),
     Spoilt("soil: pressure at which it yields", "elements/contacts/on_soil.py", "minimum(elastic, number[SoilRow.MODULUS]",
              "minimum(elastic, 1.1 * number[SoilRow.MODULUS]", verification("soil")),
+    Spoilt("soil: impulse of what is pushed ahead", "elements/contacts/on_soil.py", "SoilRow.DENSITY] * (taken - ahead) * v[c]",
+             "SoilRow.DENSITY] * taken * v[c]", verification("soil")),
     # constraints
     Spoilt("coincident points: their acceleration", "kernels/bodies/constraint.py", "markers.bias[i, x] - markers.bias[j, x]",
              "markers.bias[i, x] + markers.bias[j, x]", verification("joints")),

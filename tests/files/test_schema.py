@@ -16,6 +16,7 @@ OF_FILES = {
     "Body": {"mass_properties"},
     "Joint": {"rotor_inertia", "stops", "friction", "backlash"},
     "Tyre": {"tyre", "ground"},
+    "Blade": {"ground"},
     "SoilWheel": {"ground"},
     "Contact": {"ground"},
 }  # keys that only files have

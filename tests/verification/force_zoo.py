@@ -129,7 +129,7 @@ MAGIC = {"version": "6.1", "coefficients": {
 TYRE = {"type": "tyre", "wheel": {"body": "c", "axis": [0.1, 1, 0.2]}, "plane": "floor", "radius": 0.3, "width": 0.2, "nominal_load": 60,
         "stiffness": 900, "damping": 3, "along": {"stiffness": 700, "damping": 4}, "across": {"stiffness": 500, "damping": 4}}  # fmt: skip
 SOIL = {"plane": "floor", "heights": {"size": [6, 6], "function": "0.1*x + 0.07*y", "points": [61, 61]},
-        "soil": {"cohesion": 3, "modulus": 2e3, "unloading": 5e4}}  # fmt: skip
+        "soil": {"density": 4, "cohesion": 3, "modulus": 2e3, "unloading": 5e4}}  # fmt: skip
 # slips at which this one rolls
 ROLLS = {way: {**TYRE[way], "peak_slip": [4, 4.5], "sliding_slip": [20, 22]} for way in ("along", "across")}
 LEVER = {"range": [-1, 1], "signal": {"times": [0, 1], "values": [0.1, 0.5]}}
@@ -299,6 +299,8 @@ CASES = {
     "tyre, off the ground": Case(TYRE, ("c", "", [-0.5, 0.9, 1.4]), False),
     "wheel on soil": Case({"type": "soil-wheel", "wheel": {"body": "c", "axis": [0.1, 1, 0.2]}, "radius": 0.3, "width": 0.2, **SOIL},
                           ("c", "", [-0.5, 0.9, 0.1]), True),
+    "blade": Case({"type": "blade", "edge": [{"body": "c", "position": [0.1, 0.3, 0]}, {"body": "c", "position": [0.1, -0.3, 0]}], **SOIL},
+                  ("c", "", [-0.5, 0.9, -0.2]), True),
     "hand": Case({"type": "hand", "pull": "0.8 + 0.1*time", "body_number": 1, "point": [0.1, -0.2, 0.3], "towards": ["time", 1, "tip.x"]}),
     "coulomb": Case({**RUBBING, "model": "coulomb", "transition_speed": 0.5, "viscous": 0.1}),
     "coulomb, given load": Case({**RUBBING, "model": "coulomb", "transition_speed": 0.5, "normal_load": 20}),

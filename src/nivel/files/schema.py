@@ -33,17 +33,18 @@ def schema() -> dict[str, Any]:
     definitions["Joint"]["properties"] |= {
         key: {"anyOf": _forms(key, definitions), "description": text} for key, text in DESCRIBED.items()
     }
-    tyre, contact, on_soil = (definitions[name] for name in ("Tyre", "Contact", "SoilWheel"))
+    tyre, contact, *on_soil = (definitions[name] for name in ("Tyre", "Contact", "Blade", "SoilWheel"))
     shared = {
         "tyres": {word: each for word, each in tyre["properties"].items() if word not in ("name", "type", "wheel")},
         "ground": {word: tyre["properties"][word] for word in ("plane", "heights", "grip")}
-        | {"soil": on_soil["properties"]["soil"]},
+        | {"soil": on_soil[0]["properties"]["soil"]},
     }
     for section, key in SETS.items():
-        for force in (tyre,) if section == "tyres" else (tyre, contact, on_soil):
+        for force in (tyre,) if section == "tyres" else (tyre, contact, *on_soil):
             force["properties"][key] = {"type": "string", "description": f"an entry of `{section}`, whose keys it has"}
     tyre["required"] = ["wheel"]
-    on_soil["required"] = [word for word in on_soil["required"] if word not in shared["ground"]]
+    for force in on_soil:
+        force["required"] = [word for word in force["required"] if word not in shared["ground"]]
     named = set()
     for section in SECTIONS:
         items = properties[section].pop("items")

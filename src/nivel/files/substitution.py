@@ -194,6 +194,8 @@ MENTIONS: Final = (
     "ports",
     "valves",
     "wheel",
+    "edge",
+    "load_at",
     "fluid",
 )
 

@@ -152,8 +152,8 @@ class LiveRun:
     def records(self) -> list[Any]:
         """All that the kernels remember."""
         twin, system = self.prepared.motion.twin, self.prepared.motion.system
-        records = [system.record, self.run, *(each.record for each in system.units)]
-        return records if twin is None else [*records, twin.record]
+        units = [unit.record for unit in system.units]
+        return [system.record, self.run, *([twin.record] if twin is not None else []), *units]
 
 
 def prepared_run(plan: Plan, pace: Pace) -> LiveRun:

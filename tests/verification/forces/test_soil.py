@@ -1,4 +1,4 @@
-"""Wheels on soil against closed forms: shear, compaction, rest on a slope; and what machines with soil can do."""
+"""Soil against closed forms: earth pressure, the wedge before a blade, heaps, loads that are taken along, rigid wheels."""
 
 import math
 import pickle
@@ -6,27 +6,89 @@ import pickle
 import numpy as np
 import pytest
 
+from nivel.elements.contacts.height_field import HeightField
 from nivel.elements.contacts.on_soil import sheared
+from nivel.elements.contacts.soil import Soil, SoilRow, SoilUnit
+from nivel.elements.contacts.soil_cells import failure_angle, raise_node, slide, wedge
 from nivel.errors import ModelError
+from nivel.kernels.elements.soil import ADDED, COUNT
 from nivel.live.opening import export_page
 from nivel.live.preparation import live_plan, prepared_run
 from nivel.live.shared import arrays_in, put_back, taken
 from simulating import G, machine, simulate
 
-FLAT = {"size": [4, 2], "function": "0", "points": [161, 81]}
+CELL, SIZE = 0.05, 10.0
+FLAT = {"size": [10, 10], "function": "1", "points": [201, 201]}
 
 
-def roller(**more):
-    """A wheel that falls onto soil and rolls."""
-    return {
-        "gravity": [0, 0, -G],
-        "bodies": {"roller": {"mass": 400, "inertia": [20, 30, 20], "position": [-1, 0, 0.47], "velocity": [1, 0, 0],
-                              "angular_velocity": [0, 2, 0]}},
-        "markers": {"road": {"body": "ground", "axis": [0, 0, 1]}, "axle": {"body": "roller", "axis": [0, 1, 0]}},
-        "forces": {"rolling": {"type": "soil-wheel", "wheel": "axle", "radius": 0.5, "width": 0.4, "plane": "road",
-                               "heights": FLAT, "soil": {"cohesion": 1e3}, **more}},
-        "simulation": {"duration": 1, "step": 1e-3, "output_interval": 0.01},
-    }  # fmt: skip
+def cells(cell=CELL, size=SIZE, **soil):
+    """Cells of level soil at the height 1 m."""
+    points = [round(size / cell) + 1] * 2
+    field = HeightField(size=[size, size], function="1", points=points)
+    return SoilUnit(Soil(**soil), field, 1, np.array([0.0, 0.0, -G]), 0.0).record
+
+
+def wedge_factor(rho, beta, phi, delta):
+    """N_γ of a plane wedge under level ground: P = γ w d² N_γ (McKyes 1985, ch. 3)."""
+    below = math.cos(rho + delta) + math.sin(rho + delta) / math.tan(beta + phi)
+    return 0.5 * (1.0 / math.tan(rho) + 1.0 / math.tan(beta)) / below
+
+
+@pytest.mark.parametrize("degrees", [(30, 0, 90), (35, 23, 90), (30, 20, 60), (40, 20, 50), (35, 23, 45)])
+def test_the_wedge_under_level_ground_is_coulombs_passive_pressure(degrees):
+    phi, delta, rho = map(math.radians, degrees)
+    # K_p of a wall at rho to the horizontal (Coulomb 1776); P = ½ K_p γ d² w, so N_γ = K_p/2
+    root = math.sqrt(math.sin(phi + delta) * math.sin(phi) / (math.sin(rho + delta) * math.sin(rho)))
+    passive = math.sin(rho - phi) ** 2 / (math.sin(rho) ** 2 * math.sin(rho + delta) * (1.0 - root) ** 2)
+    beta = failure_angle(rho, phi, delta)
+    assert wedge_factor(rho, beta, phi, delta) == pytest.approx(0.5 * passive, rel=1e-12)
+
+
+@pytest.mark.parametrize("depth", [0.1, 0.2, 0.4])
+def test_the_wedge_of_the_cells_has_mckyes_force(depth):
+    own = cells(cohesion=5e3, density=16e3 / G, tool_friction=math.radians(23), friction_angle=math.radians(35))
+    rho, phi, delta, width = (
+        math.radians(60),
+        own.number[SoilRow.FRICTION_ANGLE],
+        own.number[SoilRow.TOOL_FRICTION],
+        1.2,
+    )
+    beta = failure_angle(rho, phi, delta)
+    edge = np.array([5.0, 4.4, 1.0 - depth, 5.0, 5.6, 1.0 - depth])
+    force, found = wedge(own, edge, 1.0, 0.0, rho, beta)
+    # McKyes 1985, ch. 3: P = w (γ d² N_γ + c d N_c)
+    below = math.cos(rho + delta) + math.sin(rho + delta) / math.tan(beta + phi)
+    cohesion = (1.0 + 1.0 / math.tan(beta) / math.tan(beta + phi)) / below
+    expected = width * depth * (16e3 * depth * wedge_factor(rho, beta, phi, delta) + 5e3 * cohesion)
+    assert found == pytest.approx(depth, rel=1e-12)
+    assert force == pytest.approx(expected, rel=3e-3)
+
+
+def test_a_heap_has_the_angle_of_repose_and_all_of_its_volume():
+    own = cells()
+    for _ in range(1000):
+        raise_node(own, 100, 100, 1e-3 / CELL**2)
+        slide(own)
+    for _ in range(30_000):
+        slide(own)
+    assert own.turn[COUNT] == 0
+    heights = own.h - 1.0
+    assert math.fsum(heights.ravel()) * CELL**2 == pytest.approx(1.0, abs=1e-13)
+    assert own.sum[ADDED] == pytest.approx(1.0, abs=1e-11)
+    across = (own.h[1:, 1:] - own.h[:-1, :-1], own.h[1:, :-1] - own.h[:-1, 1:])
+    slopes = [np.abs(np.diff(own.h, axis=axis)).max() for axis in (0, 1)] + [np.abs(d).max() / 2**0.5 for d in across]
+    repose = own.number[SoilRow.REPOSE]
+    for slope in slopes:
+        assert math.degrees(math.atan(slope / CELL)) == pytest.approx(math.degrees(repose), abs=0.06)
+    # A cone of 1 m³ with this slope. In eight directions nothing is steeper, between them slopes may be by 1/cos 22.5° = 1.08 at most: a
+    # pyramid with eight sides is 3.5 % higher.
+    cone = (3.0 / math.pi * math.tan(repose) ** 2) ** (1 / 3)
+    assert heights.max() == pytest.approx(cone, rel=0.035)
+    ends = [
+        np.count_nonzero(line > 1e-3) * step
+        for line, step in ((heights[100:, 100], CELL), (np.diag(heights)[100:], CELL * 2**0.5))
+    ]
+    assert ends == pytest.approx([cone / math.tan(repose)] * 2, abs=0.07)
 
 
 def test_shear_comes_by_one_minus_exp():
@@ -36,44 +98,108 @@ def test_shear_comes_by_one_minus_exp():
     assert s == pytest.approx(1.0 - math.exp(-0.3 * 0.5 / 0.025), rel=1e-6)
 
 
-def test_rolling_has_a_second_run_and_the_same_end_by_another_method():
-    # the coordinates of trees meet the same kernels
-    ways = [{"integrator": "rk4"}, {"integrator": "dopri5"}, {"integrator": "rk4", "coordinates": "relative"}]
-    runs = [machine(roller()).simulate(verify=True, **way) for way in ways]
-    stated = 0.0
+def bucket(**more):
+    """A bucket on a rail along x, which cuts 5 cm deep."""
+    return {
+        "bodies": {"bucket": {"mass": 500, "inertia": [50, 60, 70], "position": [-4, 0, 2], "velocity": [2, 0, 0]}},
+        "markers": {
+            "road": {"body": "ground", "axis": [0, 0, 1]},
+            "left": {"body": "bucket", "position": [0, 0.5, -1.05]},
+            "right": {"body": "bucket", "position": [0, -0.5, -1.05]},
+            "heart": {"body": "bucket", "position": [-0.5, 0.1, -0.8]},
+        },
+        "joints": {"rail": {"type": "translational", "bodies": ["ground", "bucket"], "point": [-4, 0, 2], "axis": [1, 0, 0]}},
+        "forces": {
+            "digging": {"type": "blade", "edge": ["left", "right"], "capacity": 2.0, "load_at": "heart", "plane": "road",
+                        "heights": FLAT, "soil": {"repose": 0.6}, **more}
+        },
+        "simulation": {"duration": 2, "step": 1e-3, "output_interval": 0.01},
+    }  # fmt: skip
+
+
+DEGREES = math.radians(1.0)
+
+
+@pytest.mark.parametrize("speed", [0.2, 1.0])
+def test_a_blade_that_is_pulled_has_mckyes_draught(speed):
+    rho, phi, delta, depth, width = 60 * DEGREES, 35 * DEGREES, 23 * DEGREES, 0.2, 1.0
+    soil = {"cohesion": 5e3, "density": 16e3 / G, "friction_angle": phi, "tool_friction": delta}
+    sections = bucket(rake=rho, capacity=100.0, soil=soil)
+    for name in ("left", "right"):
+        sections["markers"][name]["position"][2] = -1.0 - depth
+    found = simulate(
+        {
+            **sections,
+            "gravity": [0, 0, -G],
+            "drivers": {"pull": {"coordinate": "rail.displacement", "value": f"{speed}*time"}},
+        }
+    )
+    beta = failure_angle(rho, phi, delta)
+    below = math.cos(rho + delta) + math.sin(rho + delta) / math.tan(beta + phi)
+    cohesion = (1.0 + 1.0 / math.tan(beta) / math.tan(beta + phi)) / below
+    most = width * depth * (16e3 * depth * wedge_factor(rho, beta, phi, delta) + 5e3 * cohesion)
+    cutting = found.array("force.digging.cutting")
+    assert cutting[-1] == pytest.approx(most, rel=3e-3)
+    # along the way: the wedge at δ to the normal of the face, and what is taken in comes to this speed
+    load = found.array("force.digging.load")
+    intake = (load[-1] - load[100]) / (found.time[-1] - found.time[100]) * speed
+    drawn = found.array("driver.pull.effort")[-1]
+    assert drawn == pytest.approx(most * math.sin(rho + delta) + intake, rel=5e-3)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_what_is_taken_in_keeps_momentum_volume_and_energy(coordinates):
+    # without gravity soil has no strength: only its mass acts
+    found, still = (
+        simulate(bucket(capacity=each), coordinates=coordinates, output_interval=1e-3) for each in (2.0, 0.02)
+    )
+    for each in (found, still):
+        load, speed = each.array("force.digging.load"), each.array("velocity")[:, 0, 0]
+        # what is taken in at a sample is at speed one period later
+        assert (500.0 + load[:-1]) * speed[1:] == pytest.approx(1000.0, rel=1e-12)
+    assert found.array("force.digging.load")[-1] > 100.0
+    assert still.array("force.digging.load")[-1] == pytest.approx(0.02 * 1700.0, rel=1e-12)
+    for each in (found, still):
+        assert np.abs(each.array("force.digging.balance")).max() < 1e-12
+        assert np.abs(each.array("energy_error")).max() < 1e-9 * 1000.0
+        assert each.trust.verdict == "green"
+
+
+def test_digging_has_a_second_run_and_the_same_end_by_another_method():
+    sections = {**bucket(soil={"cohesion": 1e3}), "gravity": [0, 0, -G]}
+    runs = [machine(sections).simulate(verify=True, integrator=name) for name in ("rk4", "dopri5")]
+    stated, way = 0.0, np.ptp(runs[0].array("position")[:, 0, 0])
     for each in runs:
+        assert each.array("force.digging.load")[-1] > 50.0
+        assert np.abs(each.array("force.digging.balance")).max() < 1e-12
         lights = {item.name: item for item in each.trust.items}
-        assert lights["energy"].verdict == "green"
+        assert lights["energy"].verdict == lights["soil"].verdict == "green"
         assert lights["accuracy"].fraction < 1e-3
-        stated += lights["accuracy"].fraction * max(1.0, np.ptp(each.array("position")[:, 0, 0]))
-    for each in runs[1:]:
-        assert np.abs(runs[0].array("position") - each.array("position")).max() <= stated
+        stated += lights["accuracy"].fraction * way
+    apart = np.abs(runs[0].array("position") - runs[1].array("position")).max()
+    assert 0.0 < apart <= stated
 
 
-def test_a_copy_and_a_saved_state_go_on_to_the_last_bit():
-    sim = machine(roller()).start()
+def test_a_loaded_machine_begins_again_empty_and_its_copy_goes_on_loaded():
+    sim = machine({**bucket(), "gravity": [0, 0, -G]}).start()
     empty = sim.state
-    for _ in range(300):
+    for _ in range(1700):
         sim.step()
-    state, other = sim.state, pickle.loads(pickle.dumps(sim))
-    for _ in range(200):
+    other = pickle.loads(pickle.dumps(sim))
+    assert other["force.digging.load"] == sim["force.digging.load"] > 0.0
+    for _ in range(100):
         sim.step()
         other.step()
-    first = sim["roller.position"].tobytes(), sim["force.rolling.magnitude"]
-    assert sim["force.rolling.sinkage"] > 0.01
-    assert (other["roller.position"].tobytes(), other["force.rolling.magnitude"]) == first
-    sim.restore(state)
-    for _ in range(200):
-        sim.step()
-    assert (sim["roller.position"].tobytes(), sim["force.rolling.magnitude"]) == first
+    assert (other["bucket.position"] == sim["bucket.position"]).all()
     sim.restore(empty)
-    for _ in range(500):
+    assert sim["force.digging.load"] == 0.0
+    for _ in range(1800):
         sim.step()
-    assert (sim["roller.position"].tobytes(), sim["force.rolling.magnitude"]) == first
+    assert (other["bucket.position"] == sim["bucket.position"]).all()
 
 
 def test_a_live_machine_that_is_put_back_has_its_cells_again():
-    plan, pace = live_plan(machine(roller()).record, {}, None)
+    plan, pace = live_plan(machine({**bucket(), "gravity": [0, 0, -G]}).record, {}, None)
     run = prepared_run(plan, pace)
     (soil,) = run.prepared.motion.system.units
     arrays = arrays_in(run.records)
@@ -81,7 +207,8 @@ def test_a_live_machine_that_is_put_back_has_its_cells_again():
     for each in soil.record[1:]:
         each[...] += 1
     put_back(arrays, before)
-    assert all((each == 0.0).all() for each in soil.record[1:])
+    assert all(each.sum() == 0 for each in (soil.record.volume, soil.record.shear, soil.record.marked))
+    assert (soil.record.h == 1.0).all()
 
 
 def cart(slope):
@@ -136,7 +263,8 @@ def test_a_cart_comes_to_rest_on_a_slope():
         lambda own: own.statics(),
         lambda own: own.linearise(),
         lambda own: own.inverse(),
-        lambda own: own.gradient("roller.position.x", "bodies.roller.mass"),
+        lambda own: own.with_values({"bodies.bucket.velocity": [0, 0, 0]}).simulate(start="equilibrium"),
+        lambda own: own.gradient("bucket.position.x", "bodies.bucket.mass"),
         lambda own: own.export_c("soil"),
         lambda own: own.export_fmu("soil.fmu"),
         lambda own: export_page(own, "soil.html"),
@@ -144,9 +272,9 @@ def test_a_cart_comes_to_rest_on_a_slope():
 )
 def test_what_cannot_have_soil_says_so(analysis, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(ModelError, match="depends on how it was pressed before") as raised:
-        analysis(machine(roller()))
-    assert raised.value.faults[0].path == "forces.rolling"
+    with pytest.raises(ModelError, match="depends on how it was pressed and cut before") as raised:
+        analysis(machine(bucket()))
+    assert raised.value.faults[0].path == "forces.digging"
     assert not list(tmp_path.iterdir())
 
 
@@ -154,22 +282,49 @@ def test_what_cannot_have_soil_says_so(analysis, tmp_path, monkeypatch):
     ("changes", "place", "said"),
     [
         (
-            {"heights": {**FLAT, "points": [161, 41]}},
+            {"heights": {**FLAT, "points": [201, 101]}},
             "heights",
-            "cells of soil are squares: here they are 0.025 m by 0.05 m",
+            "cells of soil are squares: here they are 0.05 m by 0.1 m",
         ),
-        ({"plane": {"body": "roller"}}, "plane", "the plane is on `roller` itself"),
-        ({"wheel": "axel"}, "wheel", "did you mean `axle`"),
-        ({"soil": {"friction_angle": 1.3}}, "soil.friction_angle", "less than 60 deg"),
+        ({"plane": {"body": "bucket"}}, "plane", "soil lies on the ground"),
+        ({"plane": "raod"}, "plane", "did you mean `road`"),
+        ({"load_at": {"body": "ground"}}, "edge", "stand on one rigid body"),
+        ({"edge": ["left", "left"]}, "edge", "the ends of the edge are in one place"),
+        ({"edge": ["left", "rigth"]}, "edge", "did you mean `right`"),
+        ({"rake": 2.2}, "rake", "must be below 180 deg"),
+        ({"soil": {"repose": 1.3}}, "soil.repose", "less than 69 deg"),
         ({"soil": {"period": 7e-4}}, "soil.period", "no whole number of steps"),
     ],
 )
 def test_soil_that_cannot_be_is_refused(changes, place, said):
     with pytest.raises(ModelError) as raised:
-        simulate(roller(**changes))
+        simulate(bucket(**changes))
     fault = raised.value.faults[0]
     assert said in fault.message
-    assert fault.path.startswith(f"forces.rolling.{place}")
+    assert fault.path.startswith(f"forces.digging.{place}")
+
+
+def test_a_body_has_one_blade():
+    sections = bucket()
+    sections["forces"]["second"] = {**sections["forces"]["digging"]}
+    with pytest.raises(ModelError, match="has another blade"):
+        simulate(sections)
+
+
+def test_a_saved_state_goes_on_to_the_last_bit():
+    sections = {**bucket(), "gravity": [0, 0, -G]}
+    sim = machine(sections).start()
+    for _ in range(1300):
+        sim.step()
+    state = sim.state
+    for _ in range(400):
+        sim.step()
+    first = sim["force.digging.load"], sim["bucket.position"].tobytes(), sim["force.digging.cutting"]
+    assert first[0] > 0.0
+    sim.restore(state)
+    for _ in range(400):
+        sim.step()
+    assert (sim["force.digging.load"], sim["bucket.position"].tobytes(), sim["force.digging.cutting"]) == first
 
 
 def test_a_rigid_wheel_rolls_against_the_work_of_compaction():
@@ -186,7 +341,7 @@ def test_a_rigid_wheel_rolls_against_the_work_of_compaction():
             "rolling": {"type": "soil-wheel", "wheel": "axle", "radius": 0.5, "width": width, "plane": "road",
                         "heights": {"size": [4, 0.8], "function": "0", "points": [321, 65]},
                         # without friction there is no shear: what resists is the pressure alone
-                        "soil": {"friction_angle": 1e-6, "modulus": k, "exponent": n, "unloading": 5e10}}
+                        "soil": {"friction_angle": 1e-6, "tool_friction": 1e-6, "modulus": k, "exponent": n, "unloading": 5e10}}
         },
         "simulation": {"duration": 2, "step": 1e-3, "output_interval": 1e-3},
     }  # fmt: skip

@@ -1,45 +1,47 @@
-"""Wheels on soil: rigid ones that press it down, its numbers in machine files, and its cells, heights on a grid over a plane of the ground.
+"""Soil that wheels press down and blades cut: its numbers in machine files, and its cells, heights on a grid over a plane of the ground.
 
-Heights and shear change between accepted steps only, at samples `period` apart (`nivel.elements.contacts.on_soil`). Within a step forces
-see fixed cells, so that methods keep their order. All that changes stands in arrays of a unit (`nivel.system.signals.unit`): a run begins
-with those of the file, and a saved state has all of them.
+Heights, shear and loads change between accepted steps only, at samples `period` apart (`nivel.elements.contacts.on_soil`). Within a step
+forces see fixed cells, so that methods keep their order. All that changes stands in arrays of a unit (`nivel.system.signals.unit`): a run
+begins with those of the file, and a saved state has all of them.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import Annotated, Any, ClassVar, Literal
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
 from nivel.elements.contacts.height_field import HeightField
-from nivel.elements.contacts.on_soil import SoilRow, WheelRow, apply
-from nivel.elements.facts import Output, StateFact, add_outputs, of_force
-from nivel.elements.kind import Kind
+from nivel.elements.facts import Output, StateFact, add_outputs
+from nivel.elements.rows import Row, several
 from nivel.errors import Fault, ModelError
 from nivel.kernels.core.block import Handle
-from nivel.kernels.elements.soil import Cells, address_of
+from nivel.kernels.elements.soil import SUMS, Cells, address_of
 from nivel.known import SystemBuilder
 from nivel.machine.control.part import UnitFacts, UnitOutput
-from nivel.machine.core.coefficient import NotNegativePressure, PositiveNumber
+from nivel.machine.core.coefficient import NotNegativePressure, PositiveAngle, PositiveNumber
 from nivel.machine.core.element import ForceElement
 from nivel.machine.core.marker import MarkerPlace
 from nivel.machine.core.record import GROUND, Checked, Problem
+from nivel.machine.core.vectors import Array
 from nivel.machine.given import Field, OneNumber, OneRecord
 from nivel.machine.units.formula import linear
-from nivel.machine.units.quantity import Duration, PositiveLength, Quantity
+from nivel.machine.units.quantity import Density, Duration, PositiveLength, Quantity
 from nivel.machine.units.tree import TIME
 
 Modulus = Annotated[OneNumber, Quantity("foundation modulus", positive=True)]
-FrictionAngle = Annotated[OneNumber, Quantity("angle", positive=True)]
 
 
 class Soil(Checked):
     """Soil of one kind: shear strength, pressure by sinkage (Bekker 1969), shear by displacement (Janosi, Hanamoto 1961)."""
 
+    density: Density = Field(default=1700.0)
     cohesion: NotNegativePressure = Field(default=0.0)
-    friction_angle: FrictionAngle = Field(default=math.radians(35.0), description="inner one")
+    friction_angle: PositiveAngle = Field(default=math.radians(35.0), description="inner one")
+    tool_friction: PositiveAngle = Field(default=math.radians(23.0), description="angle of friction on a blade")
+    repose: PositiveAngle = Field(default=math.radians(35.0), description="steepest slope that does not slide")
     modulus: Modulus = Field(default=1.5e6, description="k of the pressure k z^n at the sinkage z, in metres")
     exponent: PositiveNumber = Field(default=0.7, description="n of the pressure k z^n")
     unloading: Modulus = Field(default=5e8, description="pressure by rise of unloaded soil")
@@ -47,27 +49,43 @@ class Soil(Checked):
     period: Duration = Field(default=1e-3, description="between two changes of the cells")
 
     def problems(self) -> Iterator[Problem]:
-        if self.friction_angle > math.radians(60.0):
-            yield Problem(("friction_angle",), "an angle of less than 60 deg was expected")
+        if self.friction_angle + self.tool_friction > math.radians(80.0):
+            yield Problem(("friction_angle",), "`friction_angle` and `tool_friction` together must be below 80 deg")
+        if self.repose > math.radians(69.0):
+            yield Problem(("repose",), "an angle of less than 69 deg was expected")
 
 
-class SoilWheel(ForceElement):
-    """A rigid wheel, or a tyre that is hard beside the soil: pressure by sinkage, and shear, cell by cell. All with the same `plane`,
-    `heights` and `soil` share the cells."""
+class SoilRow(Row):
+    """Numbers of a soil: the side of a CELL, GRAVITY along the axes of the plane [m/s²], ORIGIN: times the place of the first node."""
 
-    outputs: ClassVar[tuple[str, ...]] = (
-        *of_force("load across the plane"),
-        Output("longitudinal", "N", "force on the wheel in the direction in which it points"),
-        Output("lateral", "N", "force on the wheel to the side to which its marker's z axis points"),
-        Output("moment", "N m", "moment on the wheel about its axle"),
-        Output("sinkage", "m", "greatest, below the soil as it was laid"),
-    )
+    cell: float
+    density: float
+    cohesion: float
+    friction_angle: float
+    tool_friction: float
+    repose: float
+    modulus: float
+    exponent: float
+    unloading: float
+    shear_length: float
+    period: float
+    gravity: Sequence[float] = several(3)
+    origin: float
+
+
+MOVED_OUT = 6  # place of the first output that all forces on soil have, behind their own
+ON_SOIL = (
+    Output("moved", "m^3", "volume that was cut, dropped or pressed down so far"),
+    Output("balance", "m^3", "volume of cells and loads less that at the start: zero, what was pressed down left out"),
+    Output("spilt", "m^3", "volume that fell beyond the border of the heights"),
+)
+
+
+class OnSoil(ForceElement):
+    """A force on soil, whose cells all forces with the same `plane`, `heights` and `soil` share."""
+
     turns: ClassVar[bool] = True
 
-    type: Literal["soil-wheel"] = "soil-wheel"
-    wheel: MarkerPlace = Field(description="marker on the wheel: its point is the centre, its z axis the axle")
-    radius: PositiveLength
-    width: PositiveLength
     plane: MarkerPlace = Field(description="marker on the ground: its point lies in it, its z axis points out of it")
     heights: OneRecord[HeightField] = Field(description="of the soil at the start, over the axes of the `plane`")
     soil: OneRecord[Soil] = Field(description="its numbers")
@@ -78,10 +96,27 @@ class SoilUnit:
 
     failure, arrays, law = "", (), address_of
 
-    def __init__(self, soil: Soil, heights: HeightField) -> None:
+    def __init__(self, soil: Soil, heights: HeightField, forces: int, gravity: Array, origin: float) -> None:
+        """gravity (3,) [m/s²] : along the axes of the plane. origin [m²/s²] : gravity times the place of the first node."""
         h = np.array(heights.heights.T, order="C")
-        number = SoilRow.of(soil, cell=heights.size[0] / (h.shape[0] - 1)).numbers
-        self.record = Cells(number=np.array(number), h=h, rest=h.copy(), shear=np.zeros((*h.shape, 2)))
+        cell = heights.size[0] / (h.shape[0] - 1)
+        self.record = Cells(
+            number=np.array(SoilRow.of(soil, cell=cell, gravity=gravity.tolist(), origin=origin).numbers),
+            sum=np.zeros(SUMS),
+            h=h,
+            rest=h.copy(),
+            shear=np.zeros((*h.shape, 2)),
+            marked=np.zeros(h.size, dtype=np.int64),
+            held=np.full(h.size, -1, dtype=np.int64),
+            ring=np.zeros(h.size, dtype=np.int64),
+            turn=np.zeros(3, dtype=np.int64),
+            volume=np.zeros(forces),
+            moved=np.zeros(forces),
+            impulse=np.zeros((forces, 6)),
+            edge=np.zeros((forces, 6)),
+            body=np.zeros((forces, 13)),
+        )
+        self._changes = self.record[1:-1]  # the body without load stays
         self._start = self.state()
         self.handle = Handle(self.record)
 
@@ -91,24 +126,31 @@ class SoilUnit:
 
     def state(self) -> bytes:
         """All that changes in a run."""
-        return np.concatenate([each.ravel() for each in self.record[1:]]).tobytes()
+        return b"".join(each.tobytes() for each in self._changes)
 
     def restore(self, content: bytes) -> None:
         """Go back to a state. Raises ModelError where it is of other cells."""
-        numbers, size = np.frombuffer(content), self.record.h.size
-        if len(numbers) != 4 * size:
-            raise ModelError("the state is of soil with other cells")
-        for own, kept in zip(self.record[1:], np.split(numbers, (size, 2 * size)), strict=True):
-            own.ravel()[:] = kept
+        if len(content) != len(self._start):
+            raise ModelError("the state is of soil with other cells, or with other forces on it")
+        place = 0
+        for each in self._changes:
+            each.ravel()[:] = np.frombuffer(content, each.dtype, each.size, place)
+            place += each.nbytes
 
 
-def add_wheel(builder: SystemBuilder, force: SoilWheel) -> None:
-    """A wheel, with the time of the last change of its soil as a state. Raises ModelError for ground that cannot be soil."""
-    soil = force.plane, force.heights, force.soil
-    wheels = [each for each in builder.machine.forces if isinstance(each, SoilWheel)]
-    name = f"soil of {next(each.name for each in wheels if (each.plane, each.heights, each.soil) == soil)}"
+def add_soil(builder: SystemBuilder, force: OnSoil) -> dict[str, int]:
+    """Columns of an element on soil: its first output, the function that says where the cells are, the number of the force among those on
+    them, the marker of the plane, and the state that is the time of the last change.
+
+    Raises ModelError for ground that cannot be soil.
+    """
+    own = force.plane, force.heights, force.soil
+    others = [each for each in builder.machine.forces if isinstance(each, OnSoil)]
+    same = [each for each in others if (each.plane, each.heights, each.soil) == own]
+    name = f"soil of {same[0].name}"
     if name not in builder.functions.units:
-        if builder.as_placed(force.plane)[0] != GROUND:
+        body, point, axes = builder.as_placed(force.plane)
+        if body != GROUND:
             raise ModelError(Fault.at(f"forces.{force.name}.plane", "soil lies on the ground, not on a body"))
         rows, columns = force.heights.heights.shape
         along, across = force.heights.size[0] / (columns - 1), force.heights.size[1] / (rows - 1)
@@ -117,14 +159,16 @@ def add_wheel(builder: SystemBuilder, force: SoilWheel) -> None:
                 f"cells of soil are squares: here they are {along:.6g} m by {across:.6g} m; change `size` or the points"
             )
             raise ModelError(Fault.at(f"forces.{force.name}.heights", message))
-        unit: Any = SoilUnit(force.soil, force.heights)
+        gravity, corner = np.array(builder.machine.gravity), point - 0.5 * axes[:, :2] @ np.array(force.heights.size)
+        unit: Any = SoilUnit(force.soil, force.heights, len(same), gravity @ axes, float(gravity @ corner))
         builder.functions.units[name] = unit
-    text, first = f"time at which {force.name} changed its soil last", add_outputs(builder, force)
+    text = f"time at which {force.name} changed its soil last"
     state = builder.own_state(StateFact(f"{force.name}.changed", "s", text, -force.soil.period, 1.0, sampled=True))
     builder.samples.append((state, linear((1.0, TIME)), force.soil.period, 0.0))
-    cells = builder.function(UnitOutput(UnitFacts(name, "", (), (), False, 0.0), 0, ()))
-    wheel, plane = builder.ends((force.wheel, force.plane))
-    builder.add(apply, WheelRow.of(force, output=first, cells=cells, changed=state, wheel=wheel, plane=plane))
-
-
-KINDS = (Kind(SoilWheel, add_wheel, (apply, address_of)),)
+    return {
+        "output": add_outputs(builder, force),
+        "cells": builder.function(UnitOutput(UnitFacts(name, "", (), (), False, 0.0), 0, ())),
+        "slot": [each.name for each in same].index(force.name),
+        "plane": builder.end(force.plane),
+        "changed": state,
+    }

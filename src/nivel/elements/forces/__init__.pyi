@@ -18,7 +18,6 @@ else:
 
 from nivel.elements.contacts.contact import Contact as Contact
 from nivel.elements.contacts.contact import Contacts as Contacts
-from nivel.elements.contacts.soil import SoilWheel as SoilWheel
 from nivel.elements.forces.actuators import Motor as Motor
 from nivel.elements.forces.actuators import Servo as Servo
 from nivel.elements.forces.actuators import Stop as Stop
@@ -44,4 +43,6 @@ from nivel.elements.forces.springs import SpringDamper as SpringDamper
 from nivel.elements.forces.springs import ThreeAxisSpring as ThreeAxisSpring
 from nivel.elements.forces.springs import TorsionalSpringDamper as TorsionalSpringDamper
 from nivel.elements.forces.synchronous_motors import SynchronousMotor as SynchronousMotor
+from nivel.elements.forces.terramechanics import Blade as Blade
+from nivel.elements.forces.terramechanics import SoilWheel as SoilWheel
 from nivel.elements.forces.tyre import Tyre as Tyre

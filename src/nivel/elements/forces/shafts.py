@@ -30,6 +30,7 @@ from nivel.machine.core.coefficient import (
     NotNegativeForce,
     NotNegativeLength,
     NotNegativeValue,
+    PositiveAngle,
     PositiveCoordinateStiffness,
     PositiveNumber,
     Truth,
@@ -83,7 +84,6 @@ class Shaft(DriveLine):
 
 
 PositiveStiffness = Annotated[OneNumber, Quantity("stiffness", positive=True)]
-PositiveAngle = Annotated[OneNumber, Quantity("angle", positive=True)]
 
 
 class BeltDrive(ForceElement):

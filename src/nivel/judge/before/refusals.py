@@ -11,7 +11,7 @@ from nivel.analysis.curves.corners import corners_of
 from nivel.analysis.plan.choice import screws_as_couplings
 from nivel.errors import Fault
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.known import Contact, Contacts, Delay, Friction, Stop, TransmissionLoss
+from nivel.known import Contact, Contacts, Delay, Friction, OnSoil, Stop, TransmissionLoss
 from nivel.lazy import dataclass, nivel
 from nivel.machine.core.element import ForceElement
 from nivel.machine.laws.functions import functions_in
@@ -57,8 +57,8 @@ class Refusal:
 
 
 # of what neither knows how soil was changed before, nor changes it
-SOIL = "what soil bears depends on how it was pressed before, which runs know: `nivel run`, `nivel live` or `machine.start()`"
-ON_SOIL = Refusal("forces", "", lambda force: force.type == "soil-wheel", SOIL)
+SOIL = "what soil bears depends on how it was pressed and cut before, which runs know: `nivel run`, `nivel live` or `machine.start()`"
+ON_SOIL = Refusal("forces", "", lambda force: isinstance(force, OnSoil), SOIL)
 
 
 def faults_of(machine: MachineRecord, refusals: Iterable[Refusal]) -> Iterator[Fault]:
@@ -99,7 +99,8 @@ def deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array) -> It
 def sampled_times(machine: MachineRecord) -> list[tuple[str, float]]:
     """Periods, offsets and latencies of sampled states and blocks [s] that are not zero, with where they stand."""
     times = [(f"states.{state.name}.every", state.every or 0.0) for state in machine.states]
-    times += [(f"forces.{each.name}.soil.period", each.soil.period) for each in filter(ON_SOIL.applies, machine.forces)]
+    on_soil: list[Any] = [*filter(ON_SOIL.applies, machine.forces)]
+    times += [(f"forces.{each.name}.soil.period", each.soil.period) for each in on_soil]
     times += [
         (f"control.{block.name}.{key}", getattr(block, key) or 0.0)
         for block in machine.control

@@ -154,6 +154,7 @@ def columns_of_coordinate(kinds: Mapping[str, tuple[str, str]]) -> Callable[[Any
 Truth = Annotated[bool, BeforeValidator(_truth)]
 
 NotNegative = AfterValidator(_not_negative)
+PositiveAngle = Annotated[OneNumber, Quantity("angle", positive=True)]
 PositiveNumber = Annotated[OneNumber, Quantity("number", positive=True)]
 NotNegativeNumber = Annotated[OneNumber, Quantity("number"), NotNegative]
 NotNegativeLength = Annotated[OneNumber, Quantity("length"), NotNegative]

@@ -149,6 +149,11 @@ def _of_force(force: Any, index: Index, place: Place) -> Faults:
         for at, plane in enumerate(as_list(entry(force, "planes"))):
             yield from _of_end(plane, index, (*place, "planes", at))
         return
+    for at, end in enumerate(as_list(entry(force, "edge"))):
+        yield from _of_end(end, index, (*place, "edge", at))
+    for key in ("load_at", "wheel", "plane"):
+        if (end := entry(force, key)) is not None:
+            yield from _of_end(end, index, (*place, key))
     if (wheel := entry(force, "wheel")) is not None:
         yield from _of_wheel(wheel, entry(force, "plane"), index, place)
     yield from _unknown_body(entry(force, "body"), index, (*place, "body"))
@@ -160,9 +165,7 @@ def _of_force(force: Any, index: Index, place: Place) -> Faults:
 
 
 def _of_wheel(wheel: Any, plane: Any, index: Index, place: Place) -> Faults:
-    """The two markers of a tyre."""
-    for key, end in (("wheel", wheel), ("plane", plane)):
-        yield from _of_end(end, index, (*place, key))
+    """Bodies of the two markers of a tyre."""
     if index.body_of(wheel) == GROUND:
         yield (*place, "wheel"), f"the marker is on `{GROUND}`: a wheel there does not turn"
     elif index.body_of(wheel) is not None and index.body_of(wheel) == index.body_of(plane):

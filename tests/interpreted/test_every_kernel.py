@@ -381,6 +381,26 @@ def test_control_and_drives(integrator):
     short(machine(sections).record, integrator, **few)
 
 
+def test_soil_is_pressed_cut_and_carried():
+    """A wheel that sinks in, and a blade that takes in more than it keeps."""
+    level = {"size": [3, 3], "function": "0", "points": [31, 31]}
+    soil = {"plane": "floor", "heights": level, "soil": {"cohesion": 1e3, "period": STEP}}
+    hub = {"body": "roller", "axis": [0, 1, 0]}
+    edge = [{"body": "bucket", "position": [0.1, y, 0]} for y in (0.2, -0.2)]
+    sections = {
+        "bodies": {
+            "roller": solid(position=[-0.5, 0, 0.25], velocity=[1, 0, 0], angular_velocity=[0, 3, 0]),
+            "bucket": solid(position=[0.4, 0, -0.15], velocity=[5, 0, 0]),
+        },
+        "markers": {"floor": {"body": "ground", "axis": [0, 0, 1]}},
+        "forces": {
+            "rolls": {"type": "soil-wheel", "wheel": hub, "radius": 0.3, "width": 0.2, **soil},
+            "digs": {"type": "blade", "edge": edge, "capacity": 1e-3, **soil},
+        },
+    }
+    short(machine(sections).record, steps=8)
+
+
 @pytest.mark.parametrize("integrator", ["dopri5", "dop853", "adams", "gear", "radau", "bdf", "generalised-alpha"])
 def test_contacts_and_events(integrator):
     """A ball that falls on a floor, where steps end."""

@@ -1,17 +1,19 @@
-"""Contacts: bodies that pass through each other within a step, friction that lets bodies creep, wheels that roll, and
-loads of tyres.
+"""Contacts: bodies that pass through each other within a step, friction that lets bodies creep, wheels that roll,
+loads of tyres, and the volume of soil.
 
 Of contacts in passing spheres are exact. Of other shapes the convex hulls are looked at, of round ones polyhedra inside them.
 """
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from nivel.judge.after.report import FRAMES, STEPS, Check
 from nivel.judge.after.subject import Equilibria, Motion, Run
 from nivel.judge.after.touching_pairs import Passed
-from nivel.known import Contact, Contacts
+from nivel.known import Contact, Contacts, OnSoil
 from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
 from nivel.results.scales import Readable, machine_size
@@ -189,9 +191,58 @@ def say_load(found: Laden) -> Item:
     return LADEN.item("laden", text, found.share, found.time, found.tyre)
 
 
+KEPT = Threshold(
+    1e-9,
+    1e-6,
+    "Volume of all cells and loads, less that at the start, by the volume that was moved. Each move is of equal volumes, so that only "
+    "round-off is left.",
+)
+SPILT = Threshold(
+    1e-6, math.inf, "Volume that fell beyond the border of the heights and lies on it, by the volume that was moved."
+)
+LEAST = 1e-9  # [m³] of volume moved, below which nothing was
+
+
+@dataclass(frozen=True)
+class Moved:
+    """Of all soil: volume moved [m³], and what is missing and what fell beyond the border by that, where it is most; a force on it."""
+
+    force: str
+    volume: float
+    missing: float
+    spilt: float
+
+
+def look_at_soil(run: Run) -> Moved | None:
+    """None without soil."""
+    names = [force.name for force in run.machine.forces if isinstance(force, OnSoil)]
+    if not names:
+        return None
+    moved, missing, spilt = (
+        [float(np.abs(run.result.array(f"force.{name}.{what}")).max()) for name in names]
+        for what in ("moved", "balance", "spilt")
+    )
+    by = max(sum(moved), LEAST)
+    return Moved(names[0], sum(moved), max(missing) / by, max(spilt) / by)
+
+
+def say_moved(found: Moved) -> Item:
+    """Whether its volume was kept."""
+    told = f"{number(found.volume)} m^3 moved under {found.force}, {number(found.missing)} of it missing; no second run has other cells"
+    return KEPT.item("soil", f"Soil: {told}", found.missing, row=found.force)
+
+
+def say_spilt(found: Moved) -> Item:
+    """Whether soil fell beyond the border."""
+    text = f"Soil: {number(found.spilt)} of the volume moved fell beyond the border of the `heights`, on which it lies; make them larger"
+    return SPILT.item("spilt", text, found.spilt, row=found.force)
+
+
 CHECKS = (
     Check("laden", (Run, Equilibria), look_at_loads, say_load, 227, (FRAMES,), "Tyres", LADEN, quiet=True),
     Check("contact", Run, look_for_passing, say_passing, 220, (STEPS,), "Contact", blind="their steps pass {row}"),
     Check("creep", Run, look_at_creep, say_creep, 225, (FRAMES,), "Contact", CREEP, quiet=True),
     Check("rolling", Motion, look_at_wheels, say_wheel, 420, (FRAMES,), "Rolling"),
+    Check("soil", Run, look_at_soil, say_moved, 228, (FRAMES,), "Soil"),
+    Check("spilt", Run, look_at_soil, say_spilt, 229, (FRAMES,), "Soil", SPILT, quiet=True),
 )

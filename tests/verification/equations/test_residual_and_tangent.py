@@ -194,6 +194,8 @@ def test_states_are_where_the_surfaces_of_contacts_and_stops_are_meant_to_be(rng
             continue
         here = state_of(name, "absolute", rng)
         surfaces = here.motion.system.record.watched.surface
+        if not len(surfaces):  # a blade in soil
+            continue
         depths = [float(here.motion.system.record.elements.depth[tuple(each)]) for each in surfaces]
         assert (max(depths) > 0.01) == case.touches, (name, depths)
         assert case.touches or max(depths) < -0.01, (name, depths)

@@ -231,7 +231,7 @@ def normal_load(machine, k):
     load = n[LOAD]
     if joint == NONE:
         return load
-    zero = 0.0 * markers.r[0, 0]
+    zero = 0.0 * markers.r[joints.first_marker[joint], 0]
     F, M = (zero, zero, zero), (zero, zero, zero)
     for row in range(joints.rows[joint, 0], joints.rows[joint, 1]):
         J, lam = constraints.J[joints.part[row]], constraints.lam[row]

@@ -222,6 +222,7 @@ def test_a_report_carries_the_machine_and_runs_it_again(browser, tmp_path, monke
         page.goto((tmp_path / "pendulum.html").as_uri())
         page.get_by_role("button", name="Run it again here").click()
         page.wait_for_selector("iframe[name=operate]")
+        until(page, lambda: page.frame("operate") is not None)
         until(page.frame("operate"), "window.nivel?.app.live?.status?.time > 0.3")
 
 

@@ -12,7 +12,7 @@ import nivel
 from lanes import tail
 from nivel import Body, Event, Joint, MachineRecord, Motor, PointForce, SimulationSettings, SpringDamper
 from nivel.errors import ModelError
-from nivel.integrate.radau.radau_constants import BEND, GAMMA, LEFT, LEFT_PAIR, MU, POWERS, RIGHT, RIGHT_PAIR, C
+from nivel.integrate.radau.radau_constants import BEND, COLLOCATION, GAMMA, LEFT, LEFT_PAIR, MU, RIGHT, RIGHT_PAIR, C
 from references import andrews, four_bar, heavy_top, pendulum, slider_crank
 from running import reference_run, run
 from stiff_machines import double_pendulum
@@ -70,7 +70,7 @@ def test_stages_integrate_polynomials_of_degree_two_and_the_end_of_degree_four()
 
 def test_polynomial_passes_through_the_stages_and_its_bend_is_flat_at_the_nodes():
     for k in range(3):
-        np.testing.assert_allclose(POWERS @ C ** (k + 1), np.eye(3)[k], rtol=0, atol=1e-13)
+        np.testing.assert_allclose(COLLOCATION @ C ** (k + 1), np.eye(3)[k], rtol=0, atol=1e-13)
     slopes = [np.sum(np.arange(1, 5) * BEND * theta ** np.arange(4)) for theta in (0.0, *C)]
     np.testing.assert_allclose(slopes, [1, 0, 0, 0], rtol=0, atol=1e-13)
     assert abs(np.sum(BEND)) < 1e-14

@@ -40,6 +40,10 @@ def _overlap(value: float) -> float:
     return value
 
 
+Ways = Literal["2/2", "3/2", "4/2", "4/3", "5/2", "5/3"]
+Centre = Literal["closed", "tandem", "open", "float"]
+
+
 class DirectionalValve(Rated):
     """A spool that joins P and T with A and B; with five ways R is the outlet of A, S that of B. `command` is its position: -1 to 1 of
     valves with a centre, 4/3 and 5/3, 0 to 1 of others.
@@ -220,8 +224,6 @@ def directional(data: Mapping[str, Any]) -> Symbol:
     return replace(directional_valve(data), settings=(str(data["ways"]),))
 
 
-Ways = Literal["2/2", "3/2", "4/2", "4/3", "5/2", "5/3"]
-Centre = Literal["closed", "tandem", "open", "float"]
 PORTS: Final[dict[str, tuple[str, ...]]] = {
     "2/2": ("P", "A"),
     "3/2": ("P", "T", "A"),

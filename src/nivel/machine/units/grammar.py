@@ -126,7 +126,7 @@ class _Parser:
     def follows_number(self) -> bool:
         """A unit may stand directly after a number, a closing parenthesis or another unit."""
         kind, text, *_ = self.tokens[self.at - 1]
-        return kind == "number" or text == ")" or (kind == "name" and (text in UNITS or text in tree.CONSTANTS))
+        return kind == "number" or text == ")" or (kind == "name" and text in {*UNITS, *tree.CONSTANTS, "A"})
 
     def sign(self) -> tree.Node:
         sign = self.symbol()

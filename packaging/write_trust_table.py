@@ -27,6 +27,7 @@ SILENT = ("scales", "verification")  # checks without a line
 # checks that have a row together, by their names, and what they examine
 EXAMINED = """
 accuracy, verified: Accuracy of a run, estimated from a second one whose error is a known share of that of the first
+battery: Batteries that are emptier or fuller than their voltages are given for, and go on all the same
 beam_mesh: Elements of beams that are too long: curvatures that change within an element, which linear elements take for constant, and
     quadratic ones for linear
 stiffening, bending: Limits of modes in a run: fast turns without geometric stiffness, bending that is not small

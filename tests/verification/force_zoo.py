@@ -38,6 +38,14 @@ def law(function, *arguments):
     return {"source": LAW, "function": function, "arguments": list(arguments)}
 
 
+# faster controllers are stiffer than differences of 5e-11 can tell
+MOTOR = {
+    "type": "synchronous-motor", "coordinate": "axle.angle", "effort": "2*sin(3*time)", "torque_constant": 0.3, "resistance": 0.5,
+    "inductance": 0.02, "inductance_d": 0.01, "current_limit": 2, "current_d": -0.5, "bandwidth": 0.5, "dc_voltage": 100,
+    "inverter_drop": 0.5, "friction_torque": 0.1,
+}  # fmt: skip
+
+
 @dataclass(frozen=True)
 class Case:
     """A force by its words on the machine `bed`, with further sections.
@@ -161,6 +169,8 @@ CASES = {
     "motor": Case({"type": "motor", "coordinate": "axle", "speed": "3 + sin(time)", "gain": 0.2}),
     "motor, limited": Case({"type": "motor", "coordinate": "axle", "speed": 300, "gain": 0.2, "limit": 0.1}),
     "motor, effort": Case({"type": "motor", "coordinate": "j.angle", "effort": "-0.4*j.angle_rate - 3*axle.angle*j.angle"}),
+    "synchronous motor": Case(MOTOR),
+    "synchronous motor, at its voltage": Case({**MOTOR, "dc_voltage": 1}),
     "servo": Case({"type": "servo", "coordinate": "j.displacement", "target": "0.2*sin(2*time)", "stiffness": 40, "damping": 3}),
     "servo, integral": Case({"type": "servo", "coordinate": "axle", "target": 0.3, "stiffness": 4, "damping": 0.3, "integral": 6}),
     "servo, limited": Case({"type": "servo", "coordinate": "axle", "target": 90, "stiffness": 4, "damping": 0.3, "limit": 0.2}),

@@ -46,7 +46,9 @@ def command(order: Order, inputs: dict[str, str], no_verify: bool, operate: bool
         order.files(order.out)
     machine = order.load()
     simulate = partial(machine.simulate, inputs=inputs, verify=not no_verify, verify_limit=verify_limit)
-    reported = (_operated(machine, order.quiet),) if operate and not order.no_report else ()
+    reported = (
+        (_operated(machine.with_settings(order.settings), order.quiet),) if operate and not order.no_report else ()
+    )
     order.run(f"{machine.name}.nc", simulate, partial(_say, notes=machine.name_notes), reported=reported)
 
 

@@ -7,6 +7,7 @@ its lane *leaves*: what it holds from there on means nothing, and its machine ha
 from __future__ import annotations
 
 import ctypes
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
@@ -19,6 +20,8 @@ from nivel.native.processor import lane_count
 
 # what compiled code knows the key by under which a thread keeps the lanes that have not left
 KEY: Final = "nivel_lanes_left"
+# elsewhere, compiled code may not find the functions of threads, or keys are of another size
+HAS_LANES: Final = sys.platform == "linux"
 
 
 @cache
@@ -36,7 +39,8 @@ def _key() -> tuple[Any, Any]:
     return library, key
 
 
-VARIABLES[KEY] = ctypes.addressof(_key()[1])
+if HAS_LANES:
+    VARIABLES[KEY] = ctypes.addressof(_key()[1])
 
 
 @contextmanager

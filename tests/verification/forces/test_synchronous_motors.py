@@ -134,6 +134,20 @@ def test_a_motor_at_its_battery_follows_the_equations_of_the_page():
     )  # braking charges
 
 
+def test_a_battery_that_is_emptied_is_not_green():
+    """60 N m in a wheel of 0.5 kg m² for 0.5 s take 1800 J and more of a battery of 36 A s at 300 to 400 V."""
+    for start, light in ((0.5, "green"), (0.002, "red")):
+        battery = (
+            f"{{charges: [0, 1], voltages: [300 V, 400 V], capacity: 36 A*s, resistance: 50 mohm, start: {start}}}"
+        )
+        result, _ = run(f"effort: 60 N m, battery: {battery}", duration=0.5, interval=0.01)
+        charge = np.asarray(result["state.drive.charge"])
+        assert (charge[-1] < 0.0) == (light == "red")
+        items = [item for item in result.trust.items if item.name == "battery"]
+        assert [item.verdict for item in items] == ([] if light == "green" else ["red"])
+        assert all("charge of drive" in item.text for item in items)
+
+
 @pytest.mark.parametrize(
     ("more", "told"),
     [

@@ -22,7 +22,7 @@ from nivel.kernels.core.arrays import NUMBERS, changed
 from nivel.kernels.core.status import DONE
 from nivel.kernels.record.hook import FAMILIES
 from nivel.native.library import missing
-from nivel.native.packs import lanes_watched, pack_type
+from nivel.native.packs import HAS_LANES, lanes_watched, pack_type
 from nivel.native.processor import lane_count
 from nivel.native.workers import CompilationError
 from nivel.results.result import Result
@@ -138,6 +138,8 @@ class LaneRuns:
 
 def unfit(runs: PatchedRuns) -> str:
     """Why runs cannot go in lanes, in words; empty where they can."""
+    if not HAS_LANES:
+        return "lanes are for Linux alone"
     prepared, settings, run = runs.blank.prepared, runs.blank.plan.settings, runs.blank.run
     record = prepared.motion.system.record
     if settings.steps == 0:

@@ -23,7 +23,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve
 from nivel.results.motion import peak
 from nivel.results.result import Result
-from nivel.results.trust import Item, number
+from nivel.results.trust import Item, Threshold, number
 from nivel.system.tables import OVER_HEIGHTS, rows_of
 
 SHOWN = 5  # elements of which each has a line
@@ -276,7 +276,55 @@ def say_state(found: SmallState) -> Item:
     return Item("states", "amber", f"States: {said} it; {advice}", row=found.name)
 
 
+CHARGED = Threshold(
+    1e-3,
+    1e-2,
+    "How far the state of charge is beyond those that have a voltage. There the voltage is taken to be that of the nearest of them, which "
+    "no battery keeps.",
+)
+
+
+@dataclass(frozen=True)
+class Charged:
+    """The state of charge of the battery of a drive that is farthest `beyond` its `given` ones, the first and the last, and when [s]."""
+
+    drive: str
+    charge: float
+    beyond: float
+    time: float
+    given: tuple[float, float]
+
+
+def look_at_batteries(run: Run) -> list[Charged]:
+    """Every battery."""
+    out = []
+    for force in run.machine.forces:
+        if (battery := getattr(force, "battery", None)) is not None:
+            charge, (first, *_, last) = run.result.array(f"state.{force.name}.charge"), battery.charges
+            beyond = np.maximum(first - charge, charge - last)
+            k = int(np.argmax(beyond))
+            out.append(
+                Charged(force.name, float(charge[k]), float(beyond[k]), float(run.result.time[k]), (first, last))
+            )
+    return out
+
+
+def say_battery(found: Charged) -> Item:
+    """A battery that is emptier or fuller than it can be, or than is known of it."""
+    first, last = map(number, found.given)
+    charge = f"the charge of {found.drive} is {number(found.charge)} at t = {found.time:.6g} s"
+    advice = "give it a larger `capacity` or another `start`, take less from it, or give `voltages` there"
+    return CHARGED.item(
+        "battery",
+        f"Battery: {charge}, its voltages are given from {first} to {last}; {advice}",
+        found.beyond,
+        found.time,
+        found.drive,
+    )
+
+
 CHECKS = (
+    Check("battery", Run, look_at_batteries, say_battery, 219, (FRAMES,), "Battery", CHARGED, quiet=True),
     Check("state", Run, look_at_sides, say_side, 218, (FRAMES,), "State", blind="both have {row} in a wrong state"),
     Check("states", Run, look_at_states, say_state, 400, (TOLERANCE,), "States"),
 )

@@ -13,8 +13,6 @@ All else that moves the machine (weight, velocity forces) is slow against a step
 for any J needs no more.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.circuits.ledger import TAKEN_IN, mass_apart

@@ -1,7 +1,5 @@
 """Direct evaluation in all coordinates, and direct corrections of states: levels that are put right, pass after pass (report 44, §5.5)."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

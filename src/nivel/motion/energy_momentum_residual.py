@@ -23,8 +23,6 @@ momenta are kept. What is missed by axes that turn with nodes, by forces on spri
 mean motion as between rigid bodies, where the momenta belonging to that motion are those of the modes too.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

@@ -3,8 +3,6 @@
 As `nivel.motion.relative`, whose recursion also passes through the modes: see `nivel.kernels.tree.flexible_articulated`.
 """
 
-from __future__ import annotations
-
 from nivel.kernels.bodies.floating_dynamics import load_modes
 from nivel.kernels.bodies.rigid import load_weight
 from nivel.kernels.core.status import OK

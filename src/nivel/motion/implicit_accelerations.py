@@ -1,8 +1,6 @@
 """Equations of motion of machines with beams of consistent mass, in any coordinates that have a residual: see
 `nivel.kernels.residual.balance`."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.rotation import rates_of_parameters

@@ -10,8 +10,6 @@ With friction in joints the accelerations come from `newton_euler`: the efforts 
 the same accelerations.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

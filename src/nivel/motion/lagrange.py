@@ -4,8 +4,6 @@ M is singular along θ (rank 6 of 7); adding μ θ θᵀ to its rotation block, 
 positive definite and changes neither the motion nor a multiplier. The normalisation θᵀθ - 1 = 0 is one row a body.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.rotation import angular_velocity, rates_of_parameters, transformation

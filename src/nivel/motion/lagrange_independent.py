@@ -7,8 +7,6 @@ state is that of `lagrange`; after every step the dependent rates and positions 
 With friction in joints the accelerations come from `lagrange`, as in `nivel.motion.independent`.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

@@ -6,8 +6,6 @@
 the Newton–Euler equations, and so are the multipliers. Ḡ appears where the state is read and where φ̈ = Ḡ⁻¹ (ᾱ - Ḡ̇ φ̇) is written.
 """
 
-from __future__ import annotations
-
 from nivel.kernels.algebra import euler_angles, rotation_vector
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.rotation import product

@@ -8,8 +8,6 @@ out (weight, velocity and other forces, how M and C_q change) has to be slow aga
 as ROS2, takes it explicitly then.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.bodies.floating_frame import modes_of

@@ -7,8 +7,6 @@ For a frame origin away from the centre of mass the unknowns are changed to w = 
 diag(m, J̄_c): the same equations, and its factor costs nothing.
 """
 
-from __future__ import annotations
-
 from nivel.kernels.algebra.rotation import normalise_parameters, rates_of_parameters
 from nivel.kernels.algebra.spatial import dot, multiply
 from nivel.kernels.bodies.constraint import constraint_rows

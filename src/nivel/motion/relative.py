@@ -4,8 +4,6 @@ q = joint coordinates (Euler parameters of spherical and free joints), v = joint
 articulated-body recursion, which gives W and z; multipliers of the cut joints follow as in all other coordinates.
 """
 
-from __future__ import annotations
-
 from nivel.kernels.bodies.rigid import load_weight
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import apply_forces, call_hook, family

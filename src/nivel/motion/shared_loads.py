@@ -5,8 +5,6 @@ found in absolute coordinates from the frame itself, which has the places of all
 `nivel.kernels.solve.least_multipliers`.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.dense import solve_pivoted

@@ -1,8 +1,6 @@
 """An evaluation in relative coordinates, whatever the recursion over the tree is made of: `nivel.motion.relative` of rigid bodies,
 `nivel.motion.flexible_tree` of flexible ones as well."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.rotation import normalise_parameters, rates_of_parameters

@@ -11,8 +11,6 @@ found on dual numbers the elements keep their wrenches (`nivel.elements.beams.ex
 plain nodes that is done here too, with their inertia.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.beams.exact import (

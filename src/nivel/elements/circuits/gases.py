@@ -7,8 +7,6 @@ do until it is as the air around it (Bejan 2016, section 5). At Tâ‚€ it is R Tâ‚
 m b - (p - pa) V of it.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.circuits.fluids import ATMOSPHERE

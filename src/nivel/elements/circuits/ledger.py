@@ -7,8 +7,6 @@ either: its rate is the sum of those of the masses of all volumes, and so are it
 the sum of r. Then a step gives tanks what it gives volumes, to round-off.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.circuits.density import EXPANSION, HEAT_CAPACITY

@@ -11,8 +11,6 @@ and Takenaka 1983:
     y_i = z_i + m_i Q        ż_i = -n_i g κ (z_i + m_i Q)        κ = 4 ν/d²        U = 16 ν l/(d² A)
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.circuits.smooth import magnitude_within

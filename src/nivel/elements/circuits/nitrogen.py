@@ -8,8 +8,6 @@ al. (2000) in pressure up to 300 bar, within 2.5 % up to 600 bar, from -20 to 13
 has on it at the density ρ₀ of its precharge.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.native.function import leaf, part

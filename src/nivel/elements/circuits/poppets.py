@@ -1,7 +1,5 @@
 """Positions of poppets, which pressures open."""
 
-from __future__ import annotations
-
 from nivel.elements.circuits.kind import Phase, called, slopes_of
 from nivel.elements.circuits.smooth import slope_of_step, step
 from nivel.elements.circuits.tangent import add_by_pressure

@@ -1,7 +1,5 @@
 """Smooth forms of ramps, steps and maxima, whose derivatives are finite everywhere; they branch on real parts alone."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

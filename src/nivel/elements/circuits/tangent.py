@@ -9,8 +9,6 @@ telescopes, cushions, commands that depend on the motion. What adds the slopes o
 (`nivel.elements.circuits.kind.slopes_of`).
 """
 
-from __future__ import annotations
-
 from nivel.elements.circuits.density import DENSITY
 from nivel.elements.circuits.volumes import GIVE, MASS, RATE
 from nivel.kernels.record.hook import call_family

@@ -8,8 +8,6 @@ Where steps are chosen, a step ends where a point is on its other side. If a poi
 is about a parabola. What fixed steps pass is noted.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.contacts.heights import (

@@ -11,8 +11,6 @@ cell, which for one direction is 1 - exp(-j/K) (Janosi, Hanamoto 1961; cells: Kr
 All work on soil is lost but what it stores as potential energy; that of a sample goes to the account of losses until the next one.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.contacts.soil import MOVED_OUT, SoilRow

@@ -12,8 +12,6 @@ All places are in the axes of the first body. A face is a row of four numbers: i
 d = h - nᵀx.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

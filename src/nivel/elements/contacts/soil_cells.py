@@ -9,8 +9,6 @@ heights themselves, so that heaps, slopes and ledges come by themselves:
 surface; P at δ to the normal of the face.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.contacts.soil import SoilRow

@@ -16,8 +16,6 @@ The tension of a rope without friction grows by m' g times its height: that is w
 end.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.forces.wound_ropes import (

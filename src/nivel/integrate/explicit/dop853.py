@@ -3,8 +3,6 @@
 Hairer, Nørsett, Wanner 1993, §II.5, §II.6. Twelve evaluations a step, and four more where a frame or an event is looked for inside it.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -7,8 +7,6 @@ A run that may go on with another method ends with STIFF where stability bounds 
 time: h |k_7 - k_6|/|Y_7 - Y_6| is h |λ| of the fastest rate as soon as that rate alone makes the two differ (Hairer, Wanner 1996, §IV.2).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.explicit.embedded import evaluate_stages, take_step

@@ -1,7 +1,5 @@
 """Embedded explicit Runge–Kutta methods: step with an error estimate. Their stages are the rows of `run.stages`."""
 
-from __future__ import annotations
-
 from nivel.integrate.loop.run import EVALUATIONS, RESTART, STEP, TIME, add_rows, run_at
 from nivel.integrate.loop.step_control import (
     allowed,

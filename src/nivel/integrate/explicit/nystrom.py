@@ -12,8 +12,6 @@ The rest of the state (forces, energies) enters as q̇ does, so it advances by S
 X a second integral of it, (q, X) is one system ÿ = f(t, y, ẏ), and the order is 4 for it too.
 """
 
-from __future__ import annotations
-
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import EVALUATIONS, STEP, STEP_SIGNATURE, TIME, run_at
 from nivel.kernels.algebra.rotation import angular_velocity, rates_of_parameters

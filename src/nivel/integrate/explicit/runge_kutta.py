@@ -3,8 +3,6 @@
 Each of them has as many stages as its order, so the order names the table.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.facts import IntegratorFacts

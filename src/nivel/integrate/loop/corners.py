@@ -4,8 +4,6 @@ Beyond a corner of a force the accelerations are others. Beyond one of a driver 
 through the joints, by the least change in the mass metric; its work is that of the driver.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.loop.run import run_at

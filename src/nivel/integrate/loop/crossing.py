@@ -4,8 +4,6 @@ A value has a side, the sign of what it last was other than zero: a value that i
 sign. Contacts and stops are on either side always: apart at the overlap zero.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.loop import run as of_run

@@ -5,8 +5,6 @@ y₀ + d₀ θ + d₁ θ² + … . An integrator fills the rows that it has wher
 rates at both ends is taken, whose error falls with h⁴.
 """
 
-from __future__ import annotations
-
 from nivel.integrate.loop.run import DENSE, END, INTERVAL, LAST_FRAME, POWERS, REACHED, START
 from nivel.native.function import leaf
 

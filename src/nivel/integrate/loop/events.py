@@ -5,8 +5,6 @@ the first one that is wanted counts. Sides are kept from step to step, never fou
 whatever changes the state afterwards by round-off (corrections, energies).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.loop import run as of_run

@@ -1,7 +1,5 @@
 """The only loop: steps until the end, a full buffer, a spent budget or a failure, and resumes exactly where it stopped."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.loop import run as of_run

@@ -5,8 +5,6 @@ From the last position, its velocities and accelerations, the next one is predic
 closed, or where it is closed far from the prediction, which may be another branch.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.loop.loop import at_end, finite, is_due, write_frame

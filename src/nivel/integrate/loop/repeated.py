@@ -1,7 +1,5 @@
 """Parts of an evaluation again and again, so that their time can be measured."""
 
-from __future__ import annotations
-
 from nivel.kernels.bodies.constraint import constraint_rows
 from nivel.kernels.core.status import DONE, OK
 from nivel.kernels.record.hook import call_evaluate, call_family, family

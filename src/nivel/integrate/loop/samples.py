@@ -1,7 +1,5 @@
 """Samples: states that change at given times or at events, between two steps; and the times at which steps end, theirs among them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.loop import run as of_run

@@ -9,8 +9,6 @@ integrator, measured on mechanisms over some ten periods): then runs end within 
 does not magnify errors.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.loop.run import (

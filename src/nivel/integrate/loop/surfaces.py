@@ -1,7 +1,5 @@
 """Contacts, stops and switches where steps are chosen: a step ends where a surface begins or ceases to touch, or a switch changes."""
 
-from __future__ import annotations
-
 from nivel.integrate.loop import run as of_run
 from nivel.integrate.loop.crossing import NEVER, SHARE, end_at, find_crossings, locate, side_of, value_at
 from nivel.integrate.loop.switches import find_between, first_switch, has_switches, let_go

@@ -9,8 +9,6 @@ A switch that goes back before its jump has moved the machine would do so withou
 error alone looks after it. It is kept again when it has not changed its side for some steps, twice as many each time it is let go.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.loop import run as of_run

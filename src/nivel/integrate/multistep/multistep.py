@@ -1,8 +1,6 @@
 """Multistep methods with a fixed step: those of Adams, which are Bashforth's, the pairs that predict, evaluate and correct once (report 44,
 Fig. 15), and Moulton's; and Gear's."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.explicit.runge_kutta import explicit

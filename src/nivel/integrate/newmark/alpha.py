@@ -6,8 +6,6 @@ of the Lagrange equations, and joint coordinates, move as vectors. Where a funct
 that meet there, each with accelerations of its own side; the steps between frames stay what they are.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.facts import IntegratorFacts

@@ -5,8 +5,6 @@ an order. But what decays, or vibrates, much faster than a step has a slope that
 taken for true it would throw the velocities by as much. So what is fast is left out of steep slopes.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.loop.corners import before, jump_at

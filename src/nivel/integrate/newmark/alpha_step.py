@@ -1,7 +1,5 @@
 """One attempt at a step of Newmark's method, HHT-α and generalised-α: the state as a function of the unknowns, and what is kept of it."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.loop.run import END, FACTORISATIONS, START, TOLERANCE, run_at

@@ -11,8 +11,6 @@ an orthonormal set of a few, and two evaluations are made only for what of x is 
 the next step.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

@@ -5,8 +5,6 @@ The equations: `nivel.motion.energy_momentum_residual`.
 Positions are closed at the ends of steps; velocities are only in the mean over a step, so that Ċ is of the order of the step squared.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.facts import IntegratorFacts

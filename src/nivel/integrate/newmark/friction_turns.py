@@ -9,8 +9,6 @@ Stribeck's curve may fall so steeply within a step that a speed has two neighbou
 one at its foot, and the tangent leads nowhere. There the iteration goes from speed to speed, with the curve of the speed before.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.core.status import OK

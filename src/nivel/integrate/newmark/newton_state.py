@@ -9,8 +9,6 @@ positions, velocities and accelerations follow from C = 0, Ċ = 0 and C̈ = 0. A
 formula puts it, but for a small turn about its dependent axes.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.rotation import product

@@ -35,8 +35,6 @@ other corrections of positions than the run without slopes has. How these depend
 (`nivel.integrate.newmark.correction_slopes`).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, run_at

@@ -15,8 +15,6 @@ Where a stiff spring turns with the machine it has another direction at every st
 of them, then does not contract unless the step is short against that turn, however slow the motion; this one does.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.radau.radau_constants import AA, A

@@ -7,8 +7,6 @@ of a step falls with the power 4/5 of that of the run, then the error of the res
 The same vector bends the polynomial to order 4 inside the step, which frames, events and the prediction of the next step make use of.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.facts import IntegratorFacts

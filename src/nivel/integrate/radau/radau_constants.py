@@ -9,8 +9,6 @@ become three that are coupled through f alone by the left eigenvectors p of A⁻
 one real, μ = γ, and a pair of complex ones, of which one is enough: Z = right ω₁ + 2 Re(right_pair ω₂).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 C = np.array([(4.0 - np.sqrt(6.0)) / 10.0, (4.0 + np.sqrt(6.0)) / 10.0, 1.0])

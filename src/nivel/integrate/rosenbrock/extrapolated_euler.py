@@ -17,8 +17,6 @@ taken as it is: J of the begin knows nothing of the contact, whose force over ha
 extrapolation from Y₁, which has passed through the surface.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.circuits.ledger import balance_mass, mass_apart

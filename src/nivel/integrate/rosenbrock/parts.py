@@ -4,8 +4,6 @@ in parts, halved until each can be, down to 1/PARTS of it. After a good part the
 Steps that were divided are counted in counter[REJECTED], parts that could not be trusted at the least length in `Circuit.guard`.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.loop.run import KNOWN, REACHED, REJECTED, STEP, TIME, run_at

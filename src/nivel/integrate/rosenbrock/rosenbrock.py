@@ -12,8 +12,6 @@ the error of everything else, (3 γ² - 2 γ³ - 1/6) h³, is 34 times as large:
 On dual numbers k₁ and k₂ have the slopes that J gives them too (`nivel.kernels.residual.shifted_along`).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.circuits.ledger import balance_mass, mass_apart

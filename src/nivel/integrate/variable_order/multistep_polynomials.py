@@ -19,8 +19,6 @@ D_q = h^{q+1} y^{(q+1)}/(q+1)! the error formula of interpolation gives e = K D_
 With BDF the remembered values err like the new one, so e is a difference of values that all miss the solution by about the same.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.native.function import leaf

@@ -6,8 +6,6 @@ evaluated again and again from f (functional iteration, for motions that are not
 of those below; for each a corrector of its own is compiled.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.loop.run import (

@@ -16,8 +16,6 @@ direction of a stiff spring velocities are derivatives of positions that hardly 
 of the step or the order they jump by as much as h^q, whatever the next step is, and unfiltered that would be rejected again and again.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.integrate.facts import IntegratorFacts

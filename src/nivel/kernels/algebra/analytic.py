@@ -1,7 +1,5 @@
 """Functions that are the same on real and on dual numbers (`nivel.native.duals`), also where a value is none or nothing."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.core.number import where

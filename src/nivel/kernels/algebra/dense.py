@@ -8,8 +8,6 @@ scales: in relative coordinates a row may lose its mobility where others keep th
 be left open.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

@@ -3,8 +3,6 @@
 Singular where sin φ₂ = 0: the first and the third axis coincide.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.native.function import leaf

@@ -7,8 +7,6 @@ are (place, gradients) of its first node, then of its second (Shabana, Yakoub 20
     r' = Σ N'_j v_j with Hermite's cubic polynomials of places and gradients along x.
 """
 
-from __future__ import annotations
-
 from nivel.kernels.algebra.vectors import minus, put, times
 from nivel.native.function import stage
 

@@ -4,8 +4,6 @@
 that the tangent of the C library took a tenth of a step.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

@@ -6,8 +6,6 @@ time, so that no sum waits for the one before it. That takes a quarter of the ti
 The kernels work on float64 and on complex128 alike.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.native.function import leaf

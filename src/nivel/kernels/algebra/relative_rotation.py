@@ -1,7 +1,5 @@
 """The rotation of one frame seen from another as a rotation vector, and its rate; on real and dual numbers."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import arctan2, real

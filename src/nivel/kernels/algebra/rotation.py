@@ -4,8 +4,6 @@ A(θ) is taken of θ/|θ|, so it is a rotation for any θ ≠ 0 and the radial d
 velocity is ω̄ = Ḡ θ̇ with Ḡ = 2 Ē/|θ|² exactly, on and off the unit sphere (report 44, eqs. 5, 28, 29, on the sphere).
 """
 
-from __future__ import annotations
-
 from nivel.native.function import leaf, stage
 
 

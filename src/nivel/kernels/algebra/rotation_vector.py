@@ -4,8 +4,6 @@ Everything depends on s = |ψ|² through a = (1 - cos ψ)/ψ² and b = (ψ - sin
 da/ds = (sin ψ/ψ - 2a)/(2s), db/ds = (a - 3b)/(2s). Singular where |ψ| = 2π, 4π, …: a = 0.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

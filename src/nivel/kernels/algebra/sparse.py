@@ -7,8 +7,6 @@ Rows that repeat others (`least` negative) are left out: their rows and columns 
 solution has zeros there and satisfies the other rows.
 """
 
-from __future__ import annotations
-
 from nivel.kernels.algebra.analytic import real
 from nivel.native.function import stage
 

@@ -1,7 +1,5 @@
 """Products of 3-vectors and 3×3 matrices, written out so that the compiler keeps them in registers."""
 
-from __future__ import annotations
-
 from nivel.native.function import leaf
 
 

@@ -5,8 +5,6 @@ reduction to |r| <= π/4 (Cody and Waite 1980) and are Taylor polynomials in r, 
 tangents works as well: only the number of quarter turns is taken from the real part.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

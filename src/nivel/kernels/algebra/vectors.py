@@ -1,7 +1,5 @@
 """Sums of 3-vectors, and products of a 3×3 matrix with one, as tuples: beside `dot` and `cross` what kernels of elements are made of."""
 
-from __future__ import annotations
-
 from nivel.native.function import leaf
 
 

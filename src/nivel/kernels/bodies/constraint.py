@@ -6,8 +6,6 @@ zero; a combination Σ factor coordinate - offset - f(t) - g(coordinates) = 0 of
 screws, gears, drivers, cams.
 """
 
-from __future__ import annotations
-
 from nivel.kernels.bodies.coordinate import cosine, translation
 from nivel.kernels.record.function import evaluate_function, evaluate_motion
 from nivel.kernels.record.record import NONE

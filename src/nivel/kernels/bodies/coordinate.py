@@ -16,8 +16,6 @@ RADIUS        distance of the second point from the first's z axis.
 ALONG … TWIST of a slider on a beam, which touch all its nodes: see `nivel.kernels.bodies.rail`.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import arctan2, real

@@ -16,8 +16,6 @@ Their numbers (`Coordinates.station`): the first of the functions, which follow 
 base 4, the last turn in the last digit, or zero for Euler parameters.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.spatial import cross, dot

@@ -4,8 +4,6 @@ Modes have unit modal mass, so the mass matrix in axes of the body [M_b B; Bᵀ 
 is M_b - B Bᵀ = L Lᵀ, 6 × 6 for any number of modes.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

@@ -4,8 +4,6 @@ A point is at R + A (x + φ p), velocities are (Ṙ, ω̄, ṗ). The frame at an
 modes like the displacement, but a rotation, so that joints hold exactly.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.spatial import centripetal, cross, dot, multiply

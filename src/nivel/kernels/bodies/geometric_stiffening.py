@@ -10,8 +10,6 @@ and from these, by Lagrange's equations, the stiffening K_g p with the accelerat
 an energy that is kept.
 """
 
-from __future__ import annotations
-
 from nivel.native.function import leaf, stage
 
 # axes of the six components of a symmetric tensor

@@ -3,8 +3,6 @@
 Both are real parts: they are used where no derivatives are taken.
 """
 
-from __future__ import annotations
-
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.native.function import stage

@@ -1,7 +1,5 @@
 """Markers: frames on bodies. Joints, forces and sensors see these only."""
 
-from __future__ import annotations
-
 from nivel.kernels.algebra.spatial import centripetal, multiply
 from nivel.native.function import stage
 

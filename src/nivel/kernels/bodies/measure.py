@@ -1,7 +1,5 @@
 """The hook of machines that measure coordinates: those that every evaluation needs, angles at accepted states, joint coordinates."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

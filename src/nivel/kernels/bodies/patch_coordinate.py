@@ -1,7 +1,5 @@
 """Coordinates of patches where surfaces touch: what measures them is the contact, see `nivel.kernels.elements.patch`."""
 
-from __future__ import annotations
-
 # kind of the coordinates
 PATCH = 20
 # Rows of `friction.work`, of the state last evaluated and of the accepted one: the effort of what slides, 0 of what holds; 1 where what

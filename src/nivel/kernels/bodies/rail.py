@@ -13,8 +13,6 @@ aᵀx and turn about the line by aᵀy. Each is a product of two vectors that σ
 line, too. Sliding joints: Simo, Vu-Quoc 1986 (interpolated place); Sugiyama, Escalona, Shabana 2003 (σ eliminated).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

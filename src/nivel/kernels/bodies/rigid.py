@@ -1,7 +1,5 @@
 """Rigid bodies: pose and velocity from the state, weight, and energy."""
 
-from __future__ import annotations
-
 from nivel.kernels.algebra.rotation import rotation_matrix
 from nivel.kernels.algebra.spatial import dot, multiply
 from nivel.native.function import stage

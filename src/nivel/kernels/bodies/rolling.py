@@ -19,8 +19,6 @@ positions that move with a parameter have nothing to close.
 Source: O'Reilly 1996 for the sharp disc; Meijaard et al. 2007 for toroidal wheels; here with a plane that may move.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

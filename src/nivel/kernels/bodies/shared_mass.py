@@ -9,8 +9,6 @@ Q_ba turns axes of a to those of b in the unstressed beam, so a rigid motion of 
 bodies in their own axes only: it is a metric on the group of motions, invariant to where the machine is, and energy and momenta hold.
 """
 
-from __future__ import annotations
-
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.algebra.vectors import minus, opposite, plus, seen, times, turned
 from nivel.kernels.record.record import record_at

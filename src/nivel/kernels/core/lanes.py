@@ -4,8 +4,6 @@ unit(k, size) is the dual number 0 with this slope along direction k, slope(x, k
 numbers of the record at this address are dual, for gradients of runs; where it is false nothing is compiled of what it asks about.
 """
 
-from __future__ import annotations
-
 from nivel.native.duals import LANES
 from nivel.native.function import leaf, written
 

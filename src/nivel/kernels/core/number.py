@@ -5,8 +5,6 @@ where(truth, x, y) is x where the truth holds, else y: no branch, so that each l
 packs in a lane that has not left. share_of_lanes(truth): 1, of packs 0 in the lanes where it does not hold.
 """
 
-from __future__ import annotations
-
 from nivel.native.function import written
 
 number_of, without_slopes = written("numbers:number_of"), written("numbers:without_slopes")

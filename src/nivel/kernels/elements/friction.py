@@ -15,8 +15,6 @@ A motion that drivers prescribe no effort stops: while it goes on, F is all that
 left to them.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import absolute, maximum, real, tanh

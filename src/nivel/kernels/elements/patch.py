@@ -19,8 +19,6 @@ b the lever arm by which the normal force is ahead of the middle.
 The value of the first coordinate is N and that of the second r, where the surfaces touch; nothing reads them as positions.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

@@ -1,7 +1,5 @@
 """Outputs of contacts: where surfaces touch, what they exert there, and how they slide."""
 
-from __future__ import annotations
-
 from nivel.kernels.record.record import record_at
 from nivel.native.function import stage
 

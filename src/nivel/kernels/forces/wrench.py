@@ -1,7 +1,5 @@
 """Wrenches: generalised forces of forces and torques on bodies."""
 
-from __future__ import annotations
-
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.algebra.vectors import minus
 from nivel.kernels.record.record import record_at

@@ -3,8 +3,6 @@
 A variable is known by its number here; `Outputs.column` has the first column of each, from `nivel.system.layout.first_columns`.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.bodies.floating_dynamics import flexible_kinetic_energy

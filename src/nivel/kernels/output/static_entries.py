@@ -1,7 +1,5 @@
 """Entries of statics: derivatives of its residual with respect to positions, multipliers and time, each on its own."""
 
-from __future__ import annotations
-
 from nivel.kernels.core.lanes import slope, unit
 from nivel.kernels.core.status import OK
 from nivel.kernels.output.observe import accept

@@ -1,8 +1,6 @@
 """Functions of time and of other signals: a constant, a table, or code reached through its address: a Python law, or
 the program of an expression."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

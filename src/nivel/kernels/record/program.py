@@ -10,8 +10,6 @@ than zero, else -1. Where a side is held, it stays what it is while the differen
 beyond its own side an expression may have no value (a root of what is then negative), and then differences decide at once.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import absolute, arctan2, maximum, minimum, real, tanh

@@ -6,8 +6,6 @@ the lines a + R s and b - r (1 - s) meet. What that leaves goes with the square 
 a number may jump its rate has no bounds.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.record import program as code

@@ -4,8 +4,6 @@ The residual is linear in them. The matrix [M, C_qᵀ; C_q, 0] of some state bef
 enough; with that of the state itself one solution and its refinement end at round-off.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.rotation import rates_of_parameters

@@ -13,8 +13,6 @@ x being what the slider, and all that it carries, move otherwise before than aft
 Methods that solve for accelerations at the end of a step do it again on the element reached: stiff beams would feel the places differ.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

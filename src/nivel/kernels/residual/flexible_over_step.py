@@ -13,8 +13,6 @@ A point moves by Δ(A s) = Δψ × ½ (A₀ s₀ + A₁ s₁) + Â Δs, with Δ�
 the mean of both places, which two bodies that meet there have in common, and on the modes by Â.
 """
 
-from __future__ import annotations
-
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.bodies.floating_dynamics import frame_momenta

@@ -16,8 +16,6 @@ frictions of a loop would contradict each other.
 The efforts (F, M/r) of a patch are a vector with one row each, and the sphere of radius L is in place of the two ends of the interval.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

@@ -4,8 +4,6 @@ To the kinetic energy of the bodies that the points are on every set of points a
 exact for any motion, without terms of velocities.
 """
 
-from __future__ import annotations
-
 from nivel.kernels.algebra.spatial import dot
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import family

@@ -8,8 +8,6 @@ Nothing is factorised here, so it costs little; and the same code on dual number
 only how accelerations of bodies come from v̇, and generalised forces from wrenches on bodies.
 """
 
-from __future__ import annotations
-
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.bodies.floating_dynamics import GATHER
 from nivel.kernels.bodies.rigid import load_weight

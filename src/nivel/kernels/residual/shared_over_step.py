@@ -6,8 +6,6 @@ step and with axes that turn about their own mean ω, as in `nivel.motion.energy
 change of the kinetic energy exactly, and they add nothing to the momenta of the machine.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.vectors import seen, turned

@@ -10,8 +10,6 @@ axes by its own angular velocity within s, and the energies at the end of y, on 
 iterations, and for methods that keep their order with any matrix.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

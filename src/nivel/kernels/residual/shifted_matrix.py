@@ -12,8 +12,6 @@ Of derivatives and of the state the values alone count, whatever r is: where r i
 has by what (1 - s ∂f/∂y) is. That is enough for iterations.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

@@ -3,8 +3,6 @@
 Unknowns that have no row in common are moved along one direction, so a chain of any length takes as many evaluations as a short one.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

@@ -1,7 +1,5 @@
 """Residual and tangent for Python: for checks, linearisation and tests; time loops call the same code from inside."""
 
-from __future__ import annotations
-
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_hook
 from nivel.kernels.record.record import RESIDUAL, record_at

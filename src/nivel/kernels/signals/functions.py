@@ -1,8 +1,6 @@
 """Functions that are evaluated with the equations: inputs, signals of a control, rates of user states; and the hook of sampled
 states, their values after the samples that are due."""
 
-from __future__ import annotations
-
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.hook import family

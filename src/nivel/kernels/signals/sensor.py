@@ -1,7 +1,5 @@
 """The hook of machines with sensors: their outputs, computed for recorded states only."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import arctan2

@@ -1,7 +1,5 @@
 """The hook of machines with events, and of those whose contacts, stops and switches are followed: values whose zeros are looked for."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.core.status import OK

@@ -1,7 +1,5 @@
 """The embedding technique (report 44, eqs. 84–89): v̇ = B u̇ + D in M v̇ + C_qᵀ λ = Q leaves Bᵀ M B u̇ = Bᵀ (Q - M D)."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.spatial import dot

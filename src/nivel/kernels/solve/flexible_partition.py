@@ -4,8 +4,6 @@ Modal velocities have small units (`nivel.system.states.floating`), so that pivo
 are independent wherever the machine without them determines its dependent velocities.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.spatial import dot, multiply

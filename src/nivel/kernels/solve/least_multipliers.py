@@ -5,8 +5,6 @@ augmented Lagrangian with 1/α_k = ε S_kk tends to from λ = 0: each iteration 
 smaller by ε over its share of S, and adds nothing that moves nothing. Its factor is as sparse as that of S.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.dense import IMMOBILE, solve_pivoted

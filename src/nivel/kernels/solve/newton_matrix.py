@@ -1,7 +1,5 @@
 """A matrix with the pattern of Newton's iteration: dense with exchanges of rows where it is full, sparse in a fixed order otherwise."""
 
-from __future__ import annotations
-
 from nivel.kernels.algebra.lu import factorise_lu, solve_lu
 from nivel.kernels.algebra.sparse_lu import factorise_sparse_lu, solve_sparse_lu
 from nivel.kernels.core.number import without_slopes

@@ -7,8 +7,6 @@ determine them. Velocities that somebody wants to be independent have small unit
 the assembled machine, so no tolerance decides it anew; rows beyond it follow from the chosen ones.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

@@ -4,8 +4,6 @@ A formulation leaves the whitened blocks W = C_q L⁻ᵀ and forces z = L⁻¹ Q
 what follows is the same for all of them: S = W Wᵀ, right-hand side W z - γ, accelerations L⁻ᵀ (z - Wᵀ λ).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

@@ -13,8 +13,6 @@ In the columns' own order that is M = L D Lᵀ of the mass matrix in joint coord
 their generalised forces, the form in which `nivel.kernels.solve.saddle` takes them.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.spatial import cross

@@ -12,8 +12,6 @@ With M = Uᵀ U the modes are eliminated before the joint that carries their bod
     Y = U⁻ᵀ Bᵀ        P := P - Yᵀ Y
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.bodies.floating_frame import modes_of

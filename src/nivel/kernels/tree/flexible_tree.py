@@ -11,8 +11,6 @@ from the floating frame to the node, and all further frames with it and by their
 or on a marker that its modes do not move (of a node of a beam with gradients), is carried by a frame fixed to its floating frame.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.spatial import cross, multiply

@@ -1,8 +1,6 @@
 """Whitened rows and forces of a tree with flexible bodies, and accelerations from them, with the factors of
 `nivel.kernels.tree.flexible_articulated`: efforts e and wrenches x pass the modes of a body as e := U⁻ᵀ (e + sᵀ x), x := x - Yᵀ e."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.spatial import cross, dot, multiply

@@ -1,7 +1,5 @@
 """Nodes between the frames of flexible bodies for the residual in relative coordinates; see `nivel.kernels.tree.tree_nodes`."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.bodies.floating_dynamics import flexible_wrench, load_modes

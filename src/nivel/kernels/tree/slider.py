@@ -15,8 +15,6 @@ v̈ - 2 ω × v̇ + ω × (ω × v), v = x or y, the angular acceleration. Its t
 B, Ḃ q̇ and Bᵀ of a slave that slides).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real

@@ -10,8 +10,6 @@ with ω_rel = Σ w_k u_k and, at r_j, v_rel = Σ v_k u_k; columns (w_k, v_k) are
 with … = u_1 u_2 w_1 × w_2 of a universal joint, whose second axis is fixed in the child.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.spatial import cross, dot, multiply

@@ -1,8 +1,6 @@
 """Outputs of a machine in relative coordinates beyond what its equations need: accelerations, Euler parameters, all markers,
 and the rows of the joints that carry bodies."""
 
-from __future__ import annotations
-
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.bodies.constraint import combine, constraint_rows
 from nivel.kernels.bodies.coordinate import ALONG

@@ -5,8 +5,6 @@ own. Nodes of kinds MODAL and OUTWARD, between the frames of flexible bodies, do
 `pass_sliders`; which of them a machine has, in which order, and what hangs on what, makes no difference to any of them.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.core.status import OK

@@ -1,8 +1,6 @@
 """Euler parameters of the bodies of a tree, which no evaluation needs: from the ground outwards by half angles, so that whole turns change
 no sign suddenly."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.bodies.floating_frame import TURN

@@ -1,7 +1,5 @@
 """Outputs of a machine in relative coordinates beyond what its equations need: of rigid bodies, then of others."""
 
-from __future__ import annotations
-
 from nivel.kernels.bodies.floating_dynamics import inertia_wrench
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import family

@@ -4,8 +4,6 @@ A joint that carries a body transmits what its branch needs: the inertia forces 
 to them. The multipliers of its rows are the ones whose forces on the child are that wrench.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.algebra.spatial import cross

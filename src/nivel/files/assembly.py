@@ -42,18 +42,18 @@ class Assembly(Record):
     """A part of a machine that stands in a file of its own, and where it goes."""
 
     file: FileName
-    position: Position = Field(default=(0.0, 0.0, 0.0), description="of the part's origin")
-    orientation: Maybe[OneRecord[Orientation]] = Field(default=None, description="of the part's axes")
+    position: Position = Field("of the part's origin", default=(0.0, 0.0, 0.0))
+    orientation: Maybe[OneRecord[Orientation]] = Field("of the part's axes", default=None)
     mirror: Literal["x", "y", "z", "none"] = Field(
-        default="none", description="axis of the part along which it is mirrored, before it is placed"
+        "axis of the part along which it is mirrored, before it is placed", default="none"
     )
     parameters: Annotated[dict[str, Any], BeforeValidator(_values)] = Field(
-        default={}, description="values for parameters of the part, in place of its own"
+        "values for parameters of the part, in place of its own", default={}
     )
     prefix: Annotated[str, BeforeValidator(_prefix)] = Field(
-        default="", description="start of the names of all its elements; default the assembly's name and `_`"
+        "start of the names of all its elements; default the assembly's name and `_`", default=""
     )
-    only: Sections | None = Field(default=None, description="sections that are taken; default all")
+    only: Sections | None = Field("sections that are taken; default all", default=None)
 
 
 def read_assembly(tree: Tree, name: str, given: Any, parameters: Parameters) -> Assembly | None:

@@ -86,10 +86,10 @@ if TYPE_CHECKING:
     SomeRows = Sequence[SomeNumbers] | NDArray[Any]
 
     def Field(
+        description: str | None = None,
         *,
         default: Any = ...,
         key: str | None = None,
-        description: str | None = None,
         discriminator: str | None = None,
         ge: float | None = None,
         gt: float | None = None,
@@ -103,7 +103,7 @@ if TYPE_CHECKING:
         absent: str = "",
         usual: Usual | None = None,
     ) -> Any:
-        """Default and meaning of a field.
+        """Meaning and default of a field.
 
         key : by which a machine file has it, where that is no name in Python. optional : its word in the schema need not be given.
         option : of the command line, where it is not what name and type say: `--from VALUE`. absent : what holds where it is None.
@@ -128,11 +128,12 @@ else:
     SomeNumbers = SomeRows = Any
     ModelMetaclass = type(BaseModel)
 
-    def Field(*, key=None, optional=False, option="", absent="", usual=None, **words):
+    def Field(description=None, *, key=None, optional=False, option="", absent="", usual=None, **words):
         if absent:
-            words["description"] += f"; default: {absent}"
+            description += f"; default: {absent}"
         extra = {"optional": True} if optional else Shown(option, absent, usual)
-        return pydantic.Field(json_schema_extra=extra, **words, **({} if key is None else {"alias": key}))
+        words |= {} if key is None else {"alias": key}
+        return pydantic.Field(json_schema_extra=extra, description=description, **words)
 
 
 OneNumber = Given[float, float, float | str]

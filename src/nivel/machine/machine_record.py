@@ -105,10 +105,10 @@ class MachineRecord(Checked):
     name: Title
     description: str = ""
     left_out: Annotated[ManyNames[str], BeforeValidator(listed)] = Field(
-        default=(), description="what a translation of another program's model left out; every trust report names it"
+        "what a translation of another program's model left out; every trust report names it", default=()
     )
     surroundings: Annotated[ManyRecords[Shape], BeforeValidator(_solids)] = Field(
-        default=(), description="solids that are drawn on the ground, at global places; nothing touches them"
+        "solids that are drawn on the ground, at global places; nothing touches them", default=()
     )
     gravity: AccelerationVector = Field(default=(0.0, 0.0, 0.0), usual=GRAVITY)
     bodies: ManyRecords[Body] = Field(default=())

@@ -54,49 +54,37 @@ class Beam(Checked):
     always = frozenset({"order"})  # without it `elements` would mean linear ones
 
     name: Name
-    from_: Position = Field(key="from", description="where it starts, global")
-    to: Position = Field(description="where it ends, global")
-    via: Maybe[Position] = Field(default=None, description="a point on the way: the beam is an arc of a circle")
-    through: Points = Field(default=(), description="points on the way: the beam is a smooth curve through them")
-    up: Maybe[Direction] = Field(
-        default=None, description="the z axes of its sections are as near to this as they can be"
-    )
-    twist: Angle = Field(
-        default=0.0, description="turn of the last section about the beam, against the first, unstressed"
-    )
+    from_: Position = Field("where it starts, global", key="from")
+    to: Position = Field("where it ends, global")
+    via: Maybe[Position] = Field("a point on the way: the beam is an arc of a circle", default=None)
+    through: Points = Field("points on the way: the beam is a smooth curve through them", default=())
+    up: Maybe[Direction] = Field("the z axes of its sections are as near to this as they can be", default=None)
+    twist: Angle = Field("turn of the last section about the beam, against the first, unstressed", default=0.0)
     section: OneRecord[sections.BeamSectionRecord]
     material: Maybe[OneRecord[sections.Material]] = Field(default=None)
-    centroid: Offset = Field(
-        default=(0.0, 0.0), description="y and z of the sections' centroids from the line of the beam"
-    )
-    shear_centre: Offset = Field(
-        default=(0.0, 0.0), description="y and z of the shear centres from the line of the beam"
-    )
+    centroid: Offset = Field("y and z of the sections' centroids from the line of the beam", default=(0.0, 0.0))
+    shear_centre: Offset = Field("y and z of the shear centres from the line of the beam", default=(0.0, 0.0))
     elements: Annotated[Whole, Field(strict=True, ge=1, le=100_000)] = 10
     order: Annotated[Whole, Field(strict=True, ge=1, le=3)] = Field(
-        default=2, description="of an element: 1, 2 or 3; 1 where `elements` is given without it, and of another model"
+        "of an element: 1, 2 or 3; 1 where `elements` is given without it, and of another model", default=2
     )
     model: Literal["geometrically-exact", "segments", "ancf-cable", "ancf-beam"] = Field(
+        "finite elements; rigid segments joined by springs of six directions; or elements in absolute nodal coordinates, with slopes "
+        "or all gradients",
         default="geometrically-exact",
-        description=(
-            "finite elements; rigid segments joined by springs of six directions; or elements in absolute nodal coordinates, with slopes "
-            "or all gradients"
-        ),
     )
     mass: Literal["consistent", "lumped"] | None = Field(
-        default=None,
-        description="of elements: consistent, if not given, or lumped at the nodes; segments have their own",
+        "of elements: consistent, if not given, or lumped at the nodes; segments have their own", default=None
     )
     interpolation: Literal["relative", "total"] = Field(
-        default="relative",
-        description="of rotations in an element: relative to a node of it, or total, which is not objective",
+        "of rotations in an element: relative to a node of it, or total, which is not objective", default="relative"
     )
-    damping: Time = Field(default=0.0, description="stress from a rate of strain, over that from the strain")
+    damping: Time = Field("stress from a rate of strain, over that from the strain", default=0.0)
     stations: Given[dict[Name, Scalar], dict[str, float], Mapping[str, float | str]] = Field(
-        default={}, description="name: share of the length, between 0 and 1"
+        "name: share of the length, between 0 and 1", default={}
     )
-    velocity: VelocityVector = Field(default=(0.0, 0.0, 0.0), description="of its start, global axes")
-    angular_velocity: AngularVelocityVector = Field(default=(0.0, 0.0, 0.0), description="as a rigid body, global axes")
+    velocity: VelocityVector = Field("of its start, global axes", default=(0.0, 0.0, 0.0))
+    angular_velocity: AngularVelocityVector = Field("as a rigid body, global axes", default=(0.0, 0.0, 0.0))
 
     @model_validator(mode="before")
     @classmethod

@@ -112,8 +112,8 @@ class IBeam(Checked):
     type: Literal["i"] = "i"
     width: SectionLength
     height: SectionLength
-    flange: SectionLength = Field(description="thickness of the flanges")
-    web: SectionLength = Field(description="thickness of the web")
+    flange: SectionLength = Field("thickness of the flanges")
+    web: SectionLength = Field("thickness of the web")
 
     def problems(self) -> Iterator[Problem]:
         if 2.0 * self.flange >= self.height or self.web > self.width:
@@ -128,10 +128,10 @@ class Values(Checked):
     iy: SecondMoment
     iz: SecondMoment
     torsion: SecondMoment
-    shear_area_y: Maybe[Area] = Field(default=None, description="for forces along y; default: no shear deformation")
-    shear_area_z: Maybe[Area] = Field(default=None, description="for forces along z; default: no shear deformation")
-    stress_y: Maybe[SectionLength] = Field(default=None, description="distance of the outermost fibres along y")
-    stress_z: Maybe[SectionLength] = Field(default=None, description="distance of the outermost fibres along z")
+    shear_area_y: Maybe[Area] = Field("for forces along y; default: no shear deformation", default=None)
+    shear_area_z: Maybe[Area] = Field("for forces along z; default: no shear deformation", default=None)
+    stress_y: Maybe[SectionLength] = Field("distance of the outermost fibres along y", default=None)
+    stress_z: Maybe[SectionLength] = Field("distance of the outermost fibres along z", default=None)
 
 
 SectionRecord = Annotated[Circle | Tube | Rectangle | Box | IBeam | Values, Field(discriminator="type")]
@@ -271,13 +271,13 @@ class GeneralSection(Checked):
 
     type: Literal["general"] = "general"
     stiffness: Stiffness = Field(
-        description="[EA, GA_y, GA_z, GJ, EI_y, EI_z], or 6×6 rows for stretch, two shears, twist, two curvatures"
+        "[EA, GA_y, GA_z, GJ, EI_y, EI_z], or 6×6 rows for stretch, two shears, twist, two curvatures"
     )
     mass: MassPerLength
     inertia: Annotated[ThreeNumbers[InertiaPerLength], BeforeValidator(listed)] = Field(
-        description="of a unit of length about the x, y and z axes through the mass centre"
+        "of a unit of length about the x, y and z axes through the mass centre"
     )
-    mass_centre: Offset = Field(default=(0.0, 0.0), description="y and z from the line of the beam")
+    mass_centre: Offset = Field("y and z from the line of the beam", default=(0.0, 0.0))
 
     def problems(self) -> Iterator[Problem]:
         matrix = full_matrix(self.stiffness)

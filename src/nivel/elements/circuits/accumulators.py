@@ -67,31 +67,27 @@ class Accumulator(Component):
     late: ClassVar[tuple[str, ...]] = ("flow", "temperature")
 
     type: Literal["accumulator"] = "accumulator"
-    volume: ranges.Size = Field(description="of the gas at its precharge")
-    precharge: ranges.Level = Field(description="pressure of the gas without oil, absolute")
+    volume: ranges.Size = Field("of the gas at its precharge")
+    precharge: ranges.Level = Field("pressure of the gas without oil, absolute")
     gas_exponent: Maybe[Exponent] = Field(
+        "polytropic exponent of the gas, default 1.3; with a `thermal_time` the adiabatic one, default 1.4",
         default=None,
-        description="polytropic exponent of the gas, default 1.3; with a `thermal_time` the adiabatic one, default 1.4",
     )
     thermal_time: Maybe[Duration] = Field(
-        default=None, description="time constant with which the gas takes the temperature of its surroundings"
+        "time constant with which the gas takes the temperature of its surroundings", default=None
     )
-    temperature: ranges.Warmth = Field(default=ROOM, description="of the surroundings, with a `thermal_time`")
+    temperature: ranges.Warmth = Field("of the surroundings, with a `thermal_time`", default=ROOM)
     gas: Literal["ideal", "nitrogen"] = Field(
-        default="ideal", description="with a `thermal_time` also `nitrogen` by its own equation of state"
+        "with a `thermal_time` also `nitrogen` by its own equation of state", default="ideal"
     )
     piston_friction: ranges.LeastDrop = Field(
-        default=0.0, description="difference of pressure that moves the piston between oil and gas"
+        "difference of pressure that moves the piston between oil and gas", default=0.0
     )
-    dead_volume: Maybe[VolumeSize] = Field(
-        default=None, description="of oil when it is empty; default 2 % of the volume"
-    )
-    flow: ranges.Flow = Field(description="through the inlet at `pressure_drop`")
-    pressure_drop: ranges.Drop = Field(description="at which `flow` is measured")
-    start: Maybe[ranges.Level] = Field(
-        default=None, description="pressure at the start; default: that of a steady circuit"
-    )
-    fluid: Name | None = Field(default=None, description="default: the only one")
+    dead_volume: Maybe[VolumeSize] = Field("of oil when it is empty; default 2 % of the volume", default=None)
+    flow: ranges.Flow = Field("through the inlet at `pressure_drop`")
+    pressure_drop: ranges.Drop = Field("at which `flow` is measured")
+    start: Maybe[ranges.Level] = Field("pressure at the start; default: that of a steady circuit", default=None)
+    fluid: Name | None = Field("default: the only one", default=None)
 
     @property
     def exponent(self) -> float:

@@ -31,9 +31,9 @@ MOST_STAGES = 5
 class Cushion(Rating):
     """The outlet of a chamber is throttled on the last part of the stroke; a check valve beside it lets fluid in."""
 
-    length: PositiveLength = Field(description="of the part of the stroke that is cushioned")
-    least_opening: Share = Field(default=0.02, description="share of the opening that is left at the end")
-    port_volume: Volume = Field(default=1e-4, description="of the fluid between the cushion and what is connected")
+    length: PositiveLength = Field("of the part of the stroke that is cushioned")
+    least_opening: Share = Field("share of the opening that is left at the end", default=0.02)
+    port_volume: Volume = Field("of the fluid between the cushion and what is connected", default=1e-4)
 
     def problems(self) -> Iterator[Problem]:
         yield from self.problems_of_rating()
@@ -49,19 +49,19 @@ class HydraulicCylinder(Ends, Actuator):
     nodes: ClassVar[tuple[str, ...]] = (".A", ".B")
 
     type: Literal["cylinder"] = "cylinder"
-    piston: PositiveLength = Field(description="diameter", usual=ranges.DIAMETER)
-    rod: Annotated[OneNumber, Quantity("length")] = Field(default=0.0, description="diameter")
+    piston: PositiveLength = Field("diameter", usual=ranges.DIAMETER)
+    rod: Annotated[OneNumber, Quantity("length")] = Field("diameter", default=0.0)
     stroke: ranges.Stroke = Field()
-    retracted_length: ranges.Stroke = Field(description="distance of its ends at the start of the stroke")
+    retracted_length: ranges.Stroke = Field("distance of its ends at the start of the stroke")
     acting: Literal["double", "single", "plunger"] = "double"
-    seal_leakage: Leakage = Field(default=0.0, description="flow from A to B past the piston, laminar")
+    seal_leakage: Leakage = Field("flow from A to B past the piston, laminar", default=0.0)
     friction: Maybe[OneRecord[PistonFriction]] = Field(default=None)
     heat_transfer: Maybe[ranges.WallTransfer] = Field(
+        "of gases: heat over the area of the walls of a chamber and the difference of temperature; not with `heat_conductance`",
         default=None,
-        description="of gases: heat over the area of the walls of a chamber and the difference of temperature; not with `heat_conductance`",
     )
-    cushion_A: Maybe[OneRecord[Cushion]] = Field(default=None, description="at the start of the stroke")
-    cushion_B: Maybe[OneRecord[Cushion]] = Field(default=None, description="at the end of the stroke")
+    cushion_A: Maybe[OneRecord[Cushion]] = Field("at the start of the stroke", default=None)
+    cushion_B: Maybe[OneRecord[Cushion]] = Field("at the end of the stroke", default=None)
 
     @property
     def chambers(self) -> tuple[str, ...]:
@@ -118,13 +118,13 @@ class TelescopicCylinder(Ends, Actuator):
 
     type: Literal["telescopic-cylinder"] = "telescopic-cylinder"
     stages: Annotated[ManyNumbers[PositiveLength], BeforeValidator(listed)] = Field(
-        description="diameters, falling", usual=ranges.DIAMETER
+        "diameters, falling", usual=ranges.DIAMETER
     )
     strokes: Annotated[ManyNumbers[PositiveLength], BeforeValidator(listed)] = Field(
-        description="of each stage", usual=ranges.STROKE
+        "of each stage", usual=ranges.STROKE
     )
-    transition: PositiveLength = Field(default=5e-3, description="stroke over which one stage passes to the next")
-    retracted_length: ranges.Stroke = Field(description="distance of its ends at the start of the stroke")
+    transition: PositiveLength = Field("stroke over which one stage passes to the next", default=5e-3)
+    retracted_length: ranges.Stroke = Field("distance of its ends at the start of the stroke")
     friction: Maybe[OneRecord[PistonFriction]] = Field(default=None)
 
     @property
@@ -174,11 +174,11 @@ class RotaryActuator(Actuator):
     usual: ClassVar[Mapping[str, Usual]] = Component.usual
 
     type: Literal["rotary-actuator"] = "rotary-actuator"
-    coordinate: CoordinateReference = Field(description="angle of a joint")
+    coordinate: CoordinateReference = Field("angle of a joint")
     displacement: Displacement
-    lower: Angle = Field(description="angle at the start of the stroke")
-    upper: Angle = Field(description="angle at its end")
-    seal_leakage: Leakage = Field(default=0.0, description="flow from A to B past the vane, laminar")
+    lower: Angle = Field("angle at the start of the stroke")
+    upper: Angle = Field("angle at its end")
+    seal_leakage: Leakage = Field("flow from A to B past the vane, laminar", default=0.0)
 
     @property
     def way(self) -> float:

@@ -35,26 +35,18 @@ class Actuator(Component):
     usual: ClassVar[Mapping[str, Usual]] = {**Component.usual, "speed": ranges.PISTON_SPEED}
 
     dead_volume_A: Maybe[ranges.Size] = Field(
-        default=None, description="of A, with its hose, at the start of the stroke; default 2 % of what is swept"
+        "of A, with its hose, at the start of the stroke; default 2 % of what is swept", default=None
     )
     dead_volume_B: Maybe[ranges.Size] = Field(
-        default=None, description="of B, with its hose, at the end of the stroke; default 2 % of what is swept"
+        "of B, with its hose, at the end of the stroke; default 2 % of what is swept", default=None
     )
-    wall_modulus: Maybe[ranges.WallModulus] = Field(
-        default=None, description="as of a volume, of dead volumes with their hoses"
-    )
-    heat_conductance: Maybe[ThermalConductance] = Field(
-        default=None, description="of the walls of each chamber, as of a volume"
-    )
-    start_A: Maybe[ranges.Level] = Field(
-        default=None, description="pressure in A at the start; default: what carries the load"
-    )
-    start_B: Maybe[ranges.Level] = Field(
-        default=None, description="pressure in B at the start; default: what carries the load"
-    )
-    stop_stiffness: StopStiffness = Field(default=2e8, description="of the ends of the stroke")
-    stop_restitution: Restitution = Field(default=0.2, description="speed after over speed before the end is met")
-    fluid: Name | None = Field(default=None, description="default: the only one")
+    wall_modulus: Maybe[ranges.WallModulus] = Field("as of a volume, of dead volumes with their hoses", default=None)
+    heat_conductance: Maybe[ThermalConductance] = Field("of the walls of each chamber, as of a volume", default=None)
+    start_A: Maybe[ranges.Level] = Field("pressure in A at the start; default: what carries the load", default=None)
+    start_B: Maybe[ranges.Level] = Field("pressure in B at the start; default: what carries the load", default=None)
+    stop_stiffness: StopStiffness = Field("of the ends of the stroke", default=2e8)
+    stop_restitution: Restitution = Field("speed after over speed before the end is met", default=0.2)
+    fluid: Name | None = Field("default: the only one", default=None)
 
     @property
     def inlets(self) -> tuple[str, ...]:

@@ -43,10 +43,10 @@ class CheckValve(Rated):
     )
 
     type: Literal["check-valve"] = "check-valve"
-    opens_at: ranges.LeastDrop = Field(default=0.5e5, description="difference of pressure at which it begins to open")
-    opening_range: ranges.Drop = Field(default=3e5, description="difference of pressure from there to fully open")
-    pilot_ratio: Maybe[PositiveNumber] = Field(default=None, description="area of the pilot over that of the seat")
-    lag: ranges.Lag = Field(default=0.0, description="time constant of the opening; 0: none")
+    opens_at: ranges.LeastDrop = Field("difference of pressure at which it begins to open", default=0.5e5)
+    opening_range: ranges.Drop = Field("difference of pressure from there to fully open", default=3e5)
+    pilot_ratio: Maybe[PositiveNumber] = Field("area of the pilot over that of the seat", default=None)
+    lag: ranges.Lag = Field("time constant of the opening; 0: none", default=0.0)
     leakage: Leakage = Field(default=0.0)
 
     @property
@@ -68,8 +68,8 @@ class ShuttleValve(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow_A", "flow_B", "position")
 
     type: Literal["shuttle-valve"] = "shuttle-valve"
-    opening_range: ranges.Drop = Field(default=0.5e5, description="difference of pressure over which it changes sides")
-    lag: ranges.Lag = Field(default=0.0, description="time constant; 0: none")
+    opening_range: ranges.Drop = Field("difference of pressure over which it changes sides", default=0.5e5)
+    lag: ranges.Lag = Field("time constant; 0: none", default=0.0)
     leakage: Leakage = Field(default=0.0)
 
 
@@ -81,9 +81,9 @@ class QuickExhaust(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow_PA", "flow_AR", "position", "exhaust_position")
 
     type: Literal["quick-exhaust"] = "quick-exhaust"
-    opens_at: ranges.Drop = Field(default=0.05e5, description="difference at which it begins to open")
-    opening_range: ranges.Drop = Field(default=0.2e5, description="difference of pressure from there to fully open")
-    lag: ranges.Lag = Field(default=0.0, description="time constant of the opening; 0: none")
+    opens_at: ranges.Drop = Field("difference at which it begins to open", default=0.05e5)
+    opening_range: ranges.Drop = Field("difference of pressure from there to fully open", default=0.2e5)
+    lag: ranges.Lag = Field("time constant of the opening; 0: none", default=0.0)
     leakage: Leakage = Field(default=0.0)
 
 
@@ -157,25 +157,21 @@ class CounterbalanceValve(Rated):
     )
 
     type: Literal["counterbalance-valve"] = "counterbalance-valve"
-    opens_at: ranges.VaryingLevel = Field(description="load pressure at which it begins to open without a pilot")
-    opening_range: ranges.Drop = Field(default=80e5, description="control pressure from there to fully open")
-    pilot_ratio: PositiveNumber = Field(default=3.0, description="R")
-    vented: Truth = Field(default=False, description="whether the pressure at V does not act on it")
-    lag: ranges.Lag = Field(default=0.01, description="time constant of the opening; 0: none")
-    check_flow: Maybe[ranges.Flow] = Field(default=None, description="of the check valve; default `flow`")
-    check_pressure_drop: Maybe[ranges.Drop] = Field(
-        default=None, description="of the check valve; default `pressure_drop`"
-    )
+    opens_at: ranges.VaryingLevel = Field("load pressure at which it begins to open without a pilot")
+    opening_range: ranges.Drop = Field("control pressure from there to fully open", default=80e5)
+    pilot_ratio: PositiveNumber = Field("R", default=3.0)
+    vented: Truth = Field("whether the pressure at V does not act on it", default=False)
+    lag: ranges.Lag = Field("time constant of the opening; 0: none", default=0.01)
+    check_flow: Maybe[ranges.Flow] = Field("of the check valve; default `flow`", default=None)
+    check_pressure_drop: Maybe[ranges.Drop] = Field("of the check valve; default `pressure_drop`", default=None)
     check_opens_at: ranges.LeastDrop = Field(default=0.5e5)
     check_opening_range: ranges.Drop = Field(default=4e5)
     leakage: Leakage = Field(default=0.0)
-    pilot_orifice: Maybe[ranges.Bore] = Field(
-        default=None, description="diameter of an orifice in the pilot line; default: none"
-    )
+    pilot_orifice: Maybe[ranges.Bore] = Field("diameter of an orifice in the pilot line; default: none", default=None)
     drain_orifice: Maybe[ranges.Bore] = Field(
-        default=None, description="diameter of an orifice from behind it to V: the pilot is a share of X"
+        "diameter of an orifice from behind it to V: the pilot is a share of X", default=None
     )
-    inner_volume: ranges.Size = Field(default=2e-6, description="of the pilot chamber behind its orifice")
+    inner_volume: ranges.Size = Field("of the pilot chamber behind its orifice", default=2e-6)
 
     @classmethod
     def nodes_in(cls, data: Any) -> tuple[str, ...]:
@@ -211,9 +207,9 @@ class BrakeValve(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow_A", "flow_B", "position_A", "position_B", "check_flow_A", "check_flow_B")
 
     type: Literal["brake-valve"] = "brake-valve"
-    opens_at: ranges.VaryingLevel = Field(default=10e5, description="of the pilot, above the air")
-    opening_range: ranges.Drop = Field(default=15e5, description="from there to fully open")
-    lag: ranges.Lag = Field(default=0.02, description="time constant of the spool; 0: none")
+    opens_at: ranges.VaryingLevel = Field("of the pilot, above the air", default=10e5)
+    opening_range: ranges.Drop = Field("from there to fully open", default=15e5)
+    lag: ranges.Lag = Field("time constant of the spool; 0: none", default=0.02)
     leakage: Leakage = Field(default=0.0)
 
 

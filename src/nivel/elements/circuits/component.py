@@ -66,7 +66,7 @@ class Component(Checked):
     name: Name
     if TYPE_CHECKING:  # the word of every kind
         type: Any
-    ports: Ports = Field(default={}, description="nodes that the ports are connected to")
+    ports: Ports = Field("nodes that the ports are connected to", default={})
 
     @property
     def inlets(self) -> tuple[str, ...]:
@@ -115,10 +115,10 @@ def problem_of_share(key: str, value: object, least: float) -> Iterator[Problem]
 class Rating(Checked):
     """What a catalogue states of a restriction: of liquids `flow` at `pressure_drop`, of gases the numbers of ISO 6358."""
 
-    flow: Maybe[ranges.Flow] = Field(default=None, description="through one edge, fully open, at `pressure_drop`")
-    pressure_drop: Maybe[ranges.Drop] = Field(default=None, description="at which `flow` is measured")
-    sonic_conductance: Maybe[SonicConductance] = Field(default=None, description="of gases: C of ISO 6358")
-    critical_ratio: Maybe[Share] = Field(default=None, description="of gases: b of ISO 6358; default 0.3")
+    flow: Maybe[ranges.Flow] = Field("through one edge, fully open, at `pressure_drop`", default=None)
+    pressure_drop: Maybe[ranges.Drop] = Field("at which `flow` is measured", default=None)
+    sonic_conductance: Maybe[SonicConductance] = Field("of gases: C of ISO 6358", default=None)
+    critical_ratio: Maybe[Share] = Field("of gases: b of ISO 6358; default 0.3", default=None)
 
     @property
     def is_of_gas(self) -> bool:
@@ -154,7 +154,7 @@ def _listed(names: list[str]) -> str:
 class Rated(Rating, Component):
     """A component with a flow from a catalogue, fully open."""
 
-    transition: ranges.Drop = Field(default=0.5e5, description="difference of pressure below which the root is rounded")
+    transition: ranges.Drop = Field("difference of pressure below which the root is rounded", default=0.5e5)
 
     def problems(self) -> Iterator[Problem]:
         yield from Component.problems(self)

@@ -58,7 +58,7 @@ class Cooler(Rated):
 
     type: Literal["cooler"] = "cooler"
     heat_conductance: VaryingConductance = Field(
-        description="heat over the difference of temperature, of coolant and liquid at the same place"
+        "heat over the difference of temperature, of coolant and liquid at the same place"
     )
     coolant_temperature: VaryingTemperature = Field(default=ROOM, usual=ranges.TEMPERATURE)
 

@@ -119,11 +119,11 @@ class EfficiencyMap(Checked):
     `volumetric` and `mechanical` have one number for each point; the setting changes first, then the pressure, then the speed.
     """
 
-    speeds: Speeds = Field(description="of the shaft, increasing")
-    pressures: Pressures = Field(description="difference of pressure, increasing")
-    settings: Numbers = Field(default=(1.0,), description="share of the displacement, increasing")
-    volumetric: Numbers = Field(description="volumetric efficiency of each point")
-    mechanical: Numbers = Field(description="hydraulic-mechanical efficiency of each point")
+    speeds: Speeds = Field("of the shaft, increasing")
+    pressures: Pressures = Field("difference of pressure, increasing")
+    settings: Numbers = Field("share of the displacement, increasing", default=(1.0,))
+    volumetric: Numbers = Field("volumetric efficiency of each point")
+    mechanical: Numbers = Field("hydraulic-mechanical efficiency of each point")
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -154,7 +154,7 @@ MOST_POINTS = 6  # of the growth of a hose
 class HoseExpansion(Checked):
     """What a hose grows by over the pressure above that of the air: straight lines from none, and on beyond the last point."""
 
-    pressures: Pressures = Field(description="above that of the air, increasing")
+    pressures: Pressures = Field("above that of the air, increasing")
     volumes: ManyNumbers[Any]
 
     def problems(self) -> Iterator[Problem]:
@@ -168,15 +168,13 @@ class HoseExpansion(Checked):
 class VolumeExpansion(HoseExpansion):
     """Growth of a whole volume."""
 
-    volumes: Annotated[ManyNumbers[Volume], BeforeValidator(listed)] = Field(description="that it grows by")
+    volumes: Annotated[ManyNumbers[Volume], BeforeValidator(listed)] = Field("that it grows by")
 
 
 class LengthExpansion(HoseExpansion):
     """Growth of each length of a hose, as catalogues state it."""
 
-    volumes: Annotated[ManyNumbers[Area], BeforeValidator(listed)] = Field(
-        description="that each length grows by: cm^3/m"
-    )
+    volumes: Annotated[ManyNumbers[Area], BeforeValidator(listed)] = Field("that each length grows by: cm^3/m")
 
 
 def hose_points(expansion: HoseExpansion | None, length: float) -> list[float]:

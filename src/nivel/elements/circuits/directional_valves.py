@@ -58,21 +58,19 @@ class DirectionalValve(Rated):
     late: ClassVar[tuple[str, ...]] = ("position", "flow_PA", "flow_PB", "flow_AT", "flow_BT", "flow_AR", "flow_BS")
 
     type: Literal["directional-valve"] = "directional-valve"
-    ways: Ways = Field(description="ports and positions: 2/2, 3/2, 4/2, 4/3, 5/2 or 5/3")
-    command: Annotated[OneFunction, varying("number")] = Field(description="position asked for")
+    ways: Ways = Field("ports and positions: 2/2, 3/2, 4/2, 4/3, 5/2 or 5/3")
+    command: Annotated[OneFunction, varying("number")] = Field("position asked for")
     overlap: Annotated[OneNumber, Quantity("number"), AfterValidator(_overlap)] = Field(
-        default=0.0, description="share of the stroke before an edge opens; negative: edges are open at the centre"
+        "share of the stroke before an edge opens; negative: edges are open at the centre", default=0.0
     )
-    rounding: Share = Field(default=0.02, description="share of the stroke over which an edge begins to open")
-    centre: Centre = Field(default="closed", description="what is joined at the centre of a 4/3 or 5/3 valve")
-    frequency: Maybe[ranges.SpoolFrequency] = Field(
-        default=None, description="natural frequency of the spool; default: no lag"
-    )
-    damping_ratio: PositiveNumber = Field(default=0.8, description="of the spool")
-    rate_limit: Maybe[Rate] = Field(default=None, description="greatest speed of the spool, full strokes per second")
-    leakage: Leakage = Field(default=0.0, description="of each edge")
+    rounding: Share = Field("share of the stroke over which an edge begins to open", default=0.02)
+    centre: Centre = Field("what is joined at the centre of a 4/3 or 5/3 valve", default="closed")
+    frequency: Maybe[ranges.SpoolFrequency] = Field("natural frequency of the spool; default: no lag", default=None)
+    damping_ratio: PositiveNumber = Field("of the spool", default=0.8)
+    rate_limit: Maybe[Rate] = Field("greatest speed of the spool, full strokes per second", default=None)
+    leakage: Leakage = Field("of each edge", default=0.0)
     switching: Maybe[OneRecord[Switching]] = Field(
-        default=None, description="whether it is on or off alone, with its delays; `command` then counts above one half"
+        "whether it is on or off alone, with its delays; `command` then counts above one half", default=None
     )
 
     @classmethod

@@ -50,13 +50,13 @@ class Notch(Checked):
 
     shape: Literal["rectangle", "triangle", "bore"]
     begins: Annotated[OneNumber, Quantity("number")] = Field(
-        default=0.0, description="share of the stroke at which it begins to open; the sign is that of the edge"
+        "share of the stroke at which it begins to open; the sign is that of the edge", default=0.0
     )
-    width: Maybe[PositiveLength] = Field(default=None, description="of a rectangle; of a whole edge its circumference")
-    angle: Maybe[Angle] = Field(default=None, description="between the sides of a triangle")
-    diameter: Maybe[PositiveLength] = Field(default=None, description="of a bore")
-    length: Maybe[PositiveLength] = Field(default=None, description="over which it opens; default: to the full stroke")
-    number: Whole = Field(default=1, description="of equal notches")
+    width: Maybe[PositiveLength] = Field("of a rectangle; of a whole edge its circumference", default=None)
+    angle: Maybe[Angle] = Field("between the sides of a triangle", default=None)
+    diameter: Maybe[PositiveLength] = Field("of a bore", default=None)
+    length: Maybe[PositiveLength] = Field("over which it opens; default: to the full stroke", default=None)
+    number: Whole = Field("of equal notches", default=1)
 
     NEEDS: ClassVar[Mapping[str, str]] = {"rectangle": "width", "triangle": "angle", "bore": "diameter"}
 
@@ -91,9 +91,9 @@ class Edge(Checked):
     """
 
     flow: Maybe[Annotated[SomeCurve, CurveOf("volume flow", SYMBOL)]] = Field(
-        default=None, description="over the position, at `pressure_drop`"
+        "over the position, at `pressure_drop`", default=None
     )
-    pressure_drop: Maybe[ranges.Drop] = Field(default=None, description="at which `flow` is measured")
+    pressure_drop: Maybe[ranges.Drop] = Field("at which `flow` is measured", default=None)
     flows: Annotated[
         Given[
             tuple[Annotated[Curve, CurveOf("volume flow", SYMBOL)], ...],
@@ -101,14 +101,14 @@ class Edge(Checked):
             Sequence[Curve | Mapping[str, Any]],
         ],
         BeforeValidator(listed),
-    ] = Field(default=(), description="curves over the position, one for each of `pressure_drops`")
+    ] = Field("curves over the position, one for each of `pressure_drops`", default=())
     pressure_drops: Annotated[
         ManyNumbers[Annotated[OneNumber, Quantity("pressure", positive=True)]], BeforeValidator(listed)
-    ] = Field(default=(), description="increasing; outside, the nearest curve holds", usual=ranges.DIFFERENCE)
-    area: Maybe[Annotated[SomeCurve, CurveOf("area", SYMBOL)]] = Field(default=None, description="over the position")
-    notches: ManyRecords[Notch] = Field(default=(), description="in place of `area`")
-    discharge_coefficient: Share = Field(default=0.65, description="of an area")
-    jet_angle: Angle = Field(default=JET_ANGLE, description="between jet and spool, of the force of the flow")
+    ] = Field("increasing; outside, the nearest curve holds", default=(), usual=ranges.DIFFERENCE)
+    area: Maybe[Annotated[SomeCurve, CurveOf("area", SYMBOL)]] = Field("over the position", default=None)
+    notches: ManyRecords[Notch] = Field("in place of `area`", default=())
+    discharge_coefficient: Share = Field("of an area", default=0.65)
+    jet_angle: Angle = Field("between jet and spool, of the force of the flow", default=JET_ANGLE)
     leakage: Leakage = Field(default=0.0)
 
     def problems(self) -> Iterator[Problem]:

@@ -43,15 +43,15 @@ class Ejector(Component):
     late: ClassVar[tuple[str, ...]] = ("flow", "suction_flow")
 
     type: Literal["ejector"] = "ejector"
-    sonic_conductance: SonicConductance = Field(description="of its jet: C of ISO 6358", usual=ranges.CONDUCTANCE)
-    critical_ratio: Maybe[Share] = Field(default=None, description="of its jet: b of ISO 6358; default 0.5")
+    sonic_conductance: SonicConductance = Field("of its jet: C of ISO 6358", usual=ranges.CONDUCTANCE)
+    critical_ratio: Maybe[Share] = Field("of its jet: b of ISO 6358; default 0.5", default=None)
     vacuums: Annotated[ManyNumbers[NotNegativePressure], BeforeValidator(listed)] = Field(
-        description="p_R - p_A of the points, which rise; the last one is the greatest vacuum", usual=ranges.DIFFERENCE
+        "p_R - p_A of the points, which rise; the last one is the greatest vacuum", usual=ranges.DIFFERENCE
     )
     suction_flows: Annotated[ManyNumbers[Annotated[OneNumber, Quantity("volume flow")]], BeforeValidator(listed)] = (
-        Field(description="at these, at 20 °C and 1 bar; the last one is 0", usual=ranges.FLOW)
+        Field("at these, at 20 °C and 1 bar; the last one is 0", usual=ranges.FLOW)
     )
-    drive: ranges.Drop = Field(default=3e5, description="p_P - p_R from which on it draws with its whole flow")
+    drive: ranges.Drop = Field("p_P - p_R from which on it draws with its whole flow", default=3e5)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

@@ -36,8 +36,8 @@ from nivel.native.function import stage
 class TorqueCurve(Checked):
     """The torque at full load over the speed, straight lines between points, constant outside."""
 
-    speeds: Speeds = Field(description="increasing")
-    torques: Torques = Field(description="at full load, one for each speed")
+    speeds: Speeds = Field("increasing")
+    torques: Torques = Field("at full load, one for each speed")
 
     def problems(self) -> Iterator[Problem]:
         yield from rising("speeds", self.speeds)
@@ -55,12 +55,12 @@ class Engine(Component):
     usual: ClassVar[Mapping[str, Usual]] = {"speed": ranges.SHAFT_SPEED, "torque": ranges.TORQUE, "power": ranges.POWER}
 
     type: Literal["engine"] = "engine"
-    speed: Speed = Field(description="asked for, without load", usual=ranges.SHAFT_SPEED)
-    torque_curve: OneRecord[TorqueCurve] = Field(description="full load")
-    inertia: Inertia = Field(description="of the shaft and all that turns with it")
-    droop: Share = Field(default=0.05, description="fall of the speed at the greatest torque, as a share of `speed`")
-    drag: NotNegativeTorque = Field(default=0.0, description="torque with which it brakes without fuel")
-    load: Torque = Field(default=0.0, description="torque of what else it drives: fan, alternator")
+    speed: Speed = Field("asked for, without load", usual=ranges.SHAFT_SPEED)
+    torque_curve: OneRecord[TorqueCurve] = Field("full load")
+    inertia: Inertia = Field("of the shaft and all that turns with it")
+    droop: Share = Field("fall of the speed at the greatest torque, as a share of `speed`", default=0.05)
+    drag: NotNegativeTorque = Field("torque with which it brakes without fuel", default=0.0)
+    load: Torque = Field("torque of what else it drives: fan, alternator", default=0.0)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

@@ -37,13 +37,13 @@ class FlowControl(Rated):
     relieves: ClassVar[str] = ""
 
     type: Literal["flow-control"] = "flow-control"
-    setting: Setting = Field(default=1.0, description="opening of the orifice from 0 to 1")
-    margin: Pressure = Field(default=7e5, description="difference of pressure that is held over the orifice")
-    opening_range: Pressure = Field(default=2e5, description="of the compensator, from closed to fully open")
-    lag: ranges.Lag = Field(default=0.005, description="time constant of the compensator; 0: none")
-    free_return: Truth = Field(default=False, description="whether a check valve lets fluid pass from A to P")
+    setting: Setting = Field("opening of the orifice from 0 to 1", default=1.0)
+    margin: Pressure = Field("difference of pressure that is held over the orifice", default=7e5)
+    opening_range: Pressure = Field("of the compensator, from closed to fully open", default=2e5)
+    lag: ranges.Lag = Field("time constant of the compensator; 0: none", default=0.005)
+    free_return: Truth = Field("whether a check valve lets fluid pass from A to P", default=False)
     leakage: Leakage = Field(default=0.0)
-    inner_volume: ranges.Size = Field(default=INNER_VOLUME, description="between compensator and orifice")
+    inner_volume: ranges.Size = Field("between compensator and orifice", default=INNER_VOLUME)
 
     @classmethod
     def nodes_in(cls, data: Any) -> tuple[str, ...]:
@@ -73,14 +73,12 @@ class FlowDivider(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow_A", "flow_B", "position_A", "position_B")
 
     type: Literal["flow-divider"] = "flow-divider"
-    share: Share = Field(default=0.5, description="of A in the whole flow; `flow` is the whole flow")
-    combines: Truth = Field(default=False, description="whether it joins the flows of A and B at P")
-    opening_range: ranges.Drop = Field(
-        default=1e5, description="difference of pressure over which the spool moves from end to end"
-    )
-    lag: ranges.Lag = Field(default=0.005, description="time constant of the spool; 0: none")
+    share: Share = Field("of A in the whole flow; `flow` is the whole flow", default=0.5)
+    combines: Truth = Field("whether it joins the flows of A and B at P", default=False)
+    opening_range: ranges.Drop = Field("difference of pressure over which the spool moves from end to end", default=1e5)
+    lag: ranges.Lag = Field("time constant of the spool; 0: none", default=0.005)
     leakage: Leakage = Field(default=0.0)
-    inner_volume: ranges.Size = Field(default=INNER_VOLUME, description="behind each orifice")
+    inner_volume: ranges.Size = Field("behind each orifice", default=INNER_VOLUME)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -98,9 +96,9 @@ class PriorityValve(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow_CF", "flow_EF", "position")
 
     type: Literal["priority-valve"] = "priority-valve"
-    margin: VaryingPressure = Field(default=7e5, description="held between CF and LS", usual=ranges.DIFFERENCE)
-    opening_range: ranges.Drop = Field(default=4e5, description="over which the flow passes from CF to EF")
-    lag: ranges.Lag = Field(default=0.01, description="time constant of the spool; 0: none")
+    margin: VaryingPressure = Field("held between CF and LS", default=7e5, usual=ranges.DIFFERENCE)
+    opening_range: ranges.Drop = Field("over which the flow passes from CF to EF", default=4e5)
+    lag: ranges.Lag = Field("time constant of the spool; 0: none", default=0.01)
     leakage: Leakage = Field(default=0.0)
 
 

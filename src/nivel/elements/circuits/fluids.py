@@ -125,58 +125,47 @@ class Fluid(Checked):
     collection: ClassVar[str] = "fluids"
 
     name: Name
-    type: Literal["liquid"] = Field(default="liquid", description="need not be given", optional=True)
-    grade: GradeName | None = Field(default=None, description="a fluid by name; values that are given override its own")
+    type: Literal["liquid"] = Field("need not be given", default="liquid", optional=True)
+    grade: GradeName | None = Field("a fluid by name; values that are given override its own", default=None)
     temperature: ranges.Warmth = Field(
-        default=OF_CONSTANTS, description="at which a `grade` has its constants, and that of the start"
+        "at which a `grade` has its constants, and that of the start", default=OF_CONSTANTS
     )
     density: Maybe[Density] = Field(
-        default=None,
-        description="of the liquid at atmospheric pressure; default 870 kg/m³",
-        usual=ranges.LIQUID_DENSITY,
+        "of the liquid at atmospheric pressure; default 870 kg/m³", default=None, usual=ranges.LIQUID_DENSITY
     )
     bulk_modulus: Maybe[Pressure] = Field(
-        default=None, description="of the liquid at atmospheric pressure; default 1.5 GPa", usual=ranges.BULK_MODULUS
+        "of the liquid at atmospheric pressure; default 1.5 GPa", default=None, usual=ranges.BULK_MODULUS
     )
-    bulk_modulus_slope: Maybe[NotNegativeNumber] = Field(
-        default=None, description="what it grows by with the pressure; default 10"
-    )
+    bulk_modulus_slope: Maybe[NotNegativeNumber] = Field("what it grows by with the pressure; default 10", default=None)
     air: Annotated[OneNumber, Quantity("number"), NotNegative] = Field(
-        default=0.005, description="undissolved air: its share of the volume at atmospheric pressure"
+        "undissolved air: its share of the volume at atmospheric pressure", default=0.005
     )
-    gas_exponent: Exponent = Field(default=1.4, description="polytropic exponent of the air: 1.4 fast, 1 slow")
+    gas_exponent: Exponent = Field("polytropic exponent of the air: 1.4 fast, 1 slow", default=1.4)
     dissolved_air: Annotated[OneNumber, Quantity("number"), NotNegative] = Field(
-        default=0.0, description="volume at atmospheric pressure of the air that comes out below `saturation_pressure`"
+        "volume at atmospheric pressure of the air that comes out below `saturation_pressure`", default=0.0
     )
-    saturation_pressure: ranges.Level = Field(
-        default=101325.0, description="absolute, from which on that air is dissolved"
-    )
+    saturation_pressure: ranges.Level = Field("absolute, from which on that air is dissolved", default=101325.0)
     vapour_pressure: Maybe[Pressure] = Field(
-        default=None,
-        description="absolute, at which the liquid boils; default: only the air cavitates",
-        usual=ranges.VAPOUR,
+        "absolute, at which the liquid boils; default: only the air cavitates", default=None, usual=ranges.VAPOUR
     )
-    viscosity: Maybe[Viscosity] = Field(default=None, description="kinematic; default 46 mm²/s", usual=ranges.VISCOSITY)
+    viscosity: Maybe[Viscosity] = Field("kinematic; default 46 mm²/s", default=None, usual=ranges.VISCOSITY)
     pressure_viscosity: Maybe[NotNegativeNumber] = Field(
-        default=None, description="of lines: Barus's α in 1/Pa, with which the viscosity grows as exp(α p); default 0"
+        "of lines: Barus's α in 1/Pa, with which the viscosity grows as exp(α p); default 0", default=None
     )
 
     isothermal: Truth = Field(
-        default=True,
-        description="whether it keeps its `temperature`; false: that of every volume is a state, of a `grade`",
+        "whether it keeps its `temperature`; false: that of every volume is a state, of a `grade`", default=True
     )
     heat_capacity: Maybe[HeatCapacity] = Field(
-        default=None,
-        description="of a liquid that is not isothermal; default: that of its grade",
-        usual=ranges.HEAT_CAPACITY,
+        "of a liquid that is not isothermal; default: that of its grade", default=None, usual=ranges.HEAT_CAPACITY
     )
     expansion: Maybe[ThermalExpansion] = Field(
+        "thermal one, of a liquid that is not isothermal; default: that of its grade",
         default=None,
-        description="thermal one, of a liquid that is not isothermal; default: that of its grade",
         usual=ranges.EXPANSION,
     )
     surroundings: Maybe[ranges.Warmth] = Field(
-        default=None, description="temperature around walls of a liquid that is not isothermal; default 293.15 K"
+        "temperature around walls of a liquid that is not isothermal; default 293.15 K", default=None
     )
 
     @property
@@ -236,12 +225,12 @@ class Gas(Checked):
 
     name: Name
     type: Literal["ideal-gas"] = "ideal-gas"
-    density: Density = Field(default=1.185, description="at 20 °C and 1 bar", usual=ranges.GAS_DENSITY)
+    density: Density = Field("at 20 °C and 1 bar", default=1.185, usual=ranges.GAS_DENSITY)
     heat_capacity_ratio: Annotated[OneNumber, Quantity("number")] = Field(
-        default=1.4, description="c_p over c_v, of gas whose temperature is a state"
+        "c_p over c_v, of gas whose temperature is a state", default=1.4
     )
-    temperature: ranges.Warmth = Field(default=293.15, description="of tanks, of walls, and of all gas at the start")
-    isothermal: Truth = Field(default=False, description="whether the gas keeps that temperature")
+    temperature: ranges.Warmth = Field("of tanks, of walls, and of all gas at the start", default=293.15)
+    isothermal: Truth = Field("whether the gas keeps that temperature", default=False)
 
     @property
     def gas_constant(self) -> float:

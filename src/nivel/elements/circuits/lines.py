@@ -67,25 +67,23 @@ class Line(Component):
     late: ClassVar[tuple[str, ...]] = ("flow_A", "flow_B", "wave_A", "wave_B")
 
     type: Literal["line"] = "line"
-    model: Literal["segments", "delay"] = Field(default="segments", description="volumes, or waves that arrive later")
+    model: Literal["segments", "delay"] = Field("volumes, or waves that arrive later", default="segments")
     diameter: ranges.Bore = Field()
-    diameter_B: Maybe[ranges.Bore] = Field(default=None, description="at B, where it changes evenly along the line")
+    diameter_B: Maybe[ranges.Bore] = Field("at B, where it changes evenly along the line", default=None)
     length: ranges.PipeLength = Field()
-    segments: Whole = Field(default=10, description="number of its volumes, up to 100")
-    sample_time: Duration = Field(default=1e-3, description="of delay: between two samples of its waves")
+    segments: Whole = Field("number of its volumes, up to 100", default=10)
+    sample_time: Duration = Field("of delay: between two samples of its waves", default=1e-3)
     mean_pressure: ranges.Level = Field(
-        default=1e7, description="of delay, absolute: at which its speed of sound and its density hold"
+        "of delay, absolute: at which its speed of sound and its density hold", default=1e7
     )
-    unsteady_friction: Truth = Field(default=True, description="whether friction depends on the frequency (Zielke)")
-    bends: NotNegativeNumber = Field(default=0.0, description="sum of the loss coefficients of bends and fittings")
-    wall_modulus: Maybe[ranges.WallModulus] = Field(default=None, description="as of a volume")
+    unsteady_friction: Truth = Field("whether friction depends on the frequency (Zielke)", default=True)
+    bends: NotNegativeNumber = Field("sum of the loss coefficients of bends and fittings", default=0.0)
+    wall_modulus: Maybe[ranges.WallModulus] = Field("as of a volume", default=None)
     expansion: Maybe[OneRecord[LengthExpansion]] = Field(
-        default=None, description="growth of a hose over the pressure, in place of `wall_modulus`"
+        "growth of a hose over the pressure, in place of `wall_modulus`", default=None
     )
-    start: Maybe[ranges.Level] = Field(
-        default=None, description="pressure at the start; default: that of a steady circuit"
-    )
-    fluid: Name | None = Field(default=None, description="default: the only one")
+    start: Maybe[ranges.Level] = Field("pressure at the start; default: that of a steady circuit", default=None)
+    fluid: Name | None = Field("default: the only one", default=None)
 
     def diameter_at(self, share: float) -> float:
         """[m] at a share of the length from A."""
@@ -237,7 +235,7 @@ class Pipe(Component):
     type: Literal["pipe"] = "pipe"
     diameter: ranges.Bore = Field()
     length: ranges.PipeLength = Field()
-    inertia: Truth = Field(default=False, description="whether the flow has inertia: a state")
+    inertia: Truth = Field("whether the flow has inertia: a state", default=False)
 
 
 @called(Phase.FLOWS, 10)

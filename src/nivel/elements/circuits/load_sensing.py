@@ -41,9 +41,9 @@ class LoadSensing(Component):
     early: ClassVar[tuple[str, ...]] = ("pressure",)
 
     type: Literal["load-sensing"] = "load-sensing"
-    valves: Annotated[ManyNames[Name], BeforeValidator(listed)] = Field(description="directional valves of 4/3 ways")
-    lag: Duration = Field(default=0.01, description="time constant", usual=ranges.LAG)
-    opens_within: Share = Field(default=0.05, description="opening of a valve at which its load is wholly sensed")
+    valves: Annotated[ManyNames[Name], BeforeValidator(listed)] = Field("directional valves of 4/3 ways")
+    lag: Duration = Field("time constant", default=0.01, usual=ranges.LAG)
+    opens_within: Share = Field("opening of a valve at which its load is wholly sensed", default=0.05)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

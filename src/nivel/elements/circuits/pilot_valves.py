@@ -24,17 +24,15 @@ class _Piloted(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow", "position", "orifice_flow", "pilot_flow", "pilot_position")
 
     pilot_flow: VolumeFlow = Field(
-        default=2e-3 / 60.0, description="of the orifice at `pilot_pressure_drop`; that of the open pilot is twice it"
+        "of the orifice at `pilot_pressure_drop`; that of the open pilot is twice it", default=2e-3 / 60.0
     )
     pilot_pressure_drop: ranges.Drop = Field(default=5e5)
-    pilot_range: ranges.Drop = Field(default=3e5, description="over which the pilot opens wholly")
-    spring: ranges.LeastDrop = Field(
-        default=2e5, description="difference of pressure at which the main stage begins to move"
-    )
-    opening_range: Pressure = Field(default=3e5, description="from there to the other end of its stroke")
-    lag: ranges.Lag = Field(default=0.005, description="time constant of the main stage; 0: none")
+    pilot_range: ranges.Drop = Field("over which the pilot opens wholly", default=3e5)
+    spring: ranges.LeastDrop = Field("difference of pressure at which the main stage begins to move", default=2e5)
+    opening_range: Pressure = Field("from there to the other end of its stroke", default=3e5)
+    lag: ranges.Lag = Field("time constant of the main stage; 0: none", default=0.005)
     leakage: Leakage = Field(default=0.0)
-    inner_volume: ranges.Size = Field(default=INNER_VOLUME, description="of the spring chamber")
+    inner_volume: ranges.Size = Field("of the spring chamber", default=INNER_VOLUME)
 
     @property
     def pilot_conductance(self) -> float:
@@ -53,7 +51,7 @@ class PilotReliefValve(_Piloted):
     relieves: ClassVar[str] = "P"
 
     type: Literal["pilot-relief-valve"] = "pilot-relief-valve"
-    opens_at: ranges.VaryingLevel = Field(description="difference of pressure of X and T at which the pilot opens")
+    opens_at: ranges.VaryingLevel = Field("difference of pressure of X and T at which the pilot opens")
 
 
 class PilotReducingValve(_Piloted):
@@ -64,7 +62,7 @@ class PilotReducingValve(_Piloted):
     functions: ClassVar[tuple[str, ...]] = ("pressure",)
 
     type: Literal["pilot-reducing-valve"] = "pilot-reducing-valve"
-    pressure: ranges.VaryingLevel = Field(description="difference of pressure of X and T at which the pilot opens")
+    pressure: ranges.VaryingLevel = Field("difference of pressure of X and T at which the pilot opens")
 
 
 class CartridgeValve(Rated):
@@ -75,10 +73,10 @@ class CartridgeValve(Rated):
     passes: ClassVar[tuple[tuple[str, str], ...]] = ()
 
     type: Literal["cartridge-valve"] = "cartridge-valve"
-    area_share: Share = Field(default=0.5, description="area of A over that of X; 1: B does not act")
-    opens_at: ranges.LeastDrop = Field(default=2e5, description="of its spring, on the area of X")
-    opening_range: ranges.Drop = Field(default=3e5, description="from there to fully open")
-    lag: ranges.Lag = Field(default=0.0, description="time constant of the opening; 0: none")
+    area_share: Share = Field("area of A over that of X; 1: B does not act", default=0.5)
+    opens_at: ranges.LeastDrop = Field("of its spring, on the area of X", default=2e5)
+    opening_range: ranges.Drop = Field("from there to fully open", default=3e5)
+    lag: ranges.Lag = Field("time constant of the opening; 0: none", default=0.0)
     leakage: Leakage = Field(default=0.0)
 
 

@@ -33,11 +33,11 @@ from nivel.native.function import leaf
 class PistonFriction(Checked):
     """(F_c + (static - 1) F_c exp(-(v/v_s)²)) tanh(v/v_t) + viscous v, with F_c = sliding + by_pressure |p_A - p_B| A_A."""
 
-    sliding: NotNegativeForce = Field(default=0.0, description="without pressure")
-    by_pressure: NotNegativeNumber = Field(default=0.0, description="friction over the force of the pressure, by seals")
-    static: Annotated[OneNumber, Quantity("number")] = Field(default=1.0, description="static over sliding friction")
-    stribeck_speed: PositiveSpeed = Field(default=0.02, description="v_s: speed over which the static part falls")
-    transition_speed: PositiveSpeed = Field(default=0.004, description="v_t: speed over which it changes its sign")
+    sliding: NotNegativeForce = Field("without pressure", default=0.0)
+    by_pressure: NotNegativeNumber = Field("friction over the force of the pressure, by seals", default=0.0)
+    static: Annotated[OneNumber, Quantity("number")] = Field("static over sliding friction", default=1.0)
+    stribeck_speed: PositiveSpeed = Field("v_s: speed over which the static part falls", default=0.02)
+    transition_speed: PositiveSpeed = Field("v_t: speed over which it changes its sign", default=0.004)
     viscous: Damping = Field(default=0.0)
 
     def problems(self) -> Iterator[Problem]:

@@ -31,9 +31,9 @@ class ReliefValve(Rated):
     inequalities: ClassVar[Inequalities] = (PASSES,)
 
     type: Literal["relief-valve"] = "relief-valve"
-    opens_at: ranges.VaryingLevel = Field(description="difference of pressure at which it begins to open")
-    opening_range: ranges.Drop = Field(description="difference of pressure from there to fully open")
-    lag: ranges.Lag = Field(default=0.0, description="time constant of the opening; 0: none")
+    opens_at: ranges.VaryingLevel = Field("difference of pressure at which it begins to open")
+    opening_range: ranges.Drop = Field("difference of pressure from there to fully open")
+    lag: ranges.Lag = Field("time constant of the opening; 0: none", default=0.0)
     leakage: Leakage = Field(default=0.0)
 
     @property
@@ -51,9 +51,9 @@ class UnloadingValve(Rated):
     relieves: ClassVar[str] = "P"
 
     type: Literal["unloading-valve"] = "unloading-valve"
-    opens_at: ranges.VaryingLevel = Field(description="with LS: difference of P and LS; with X: that of X and the air")
-    opening_range: ranges.Drop = Field(default=3e5, description="from there to fully open")
-    lag: ranges.Lag = Field(default=0.01, description="time constant of the opening; 0: none")
+    opens_at: ranges.VaryingLevel = Field("with LS: difference of P and LS; with X: that of X and the air")
+    opening_range: ranges.Drop = Field("from there to fully open", default=3e5)
+    lag: ranges.Lag = Field("time constant of the opening; 0: none", default=0.01)
     leakage: Leakage = Field(default=0.0)
 
     def problems(self) -> Iterator[Problem]:
@@ -81,11 +81,11 @@ class CrossPortRelief(Rated):
     )
 
     type: Literal["cross-port-relief"] = "cross-port-relief"
-    opens_at: ranges.VaryingLevel = Field(description="difference of pressure of both lines")
-    opening_range: ranges.Drop = Field(default=20e5, description="from there to fully open")
-    lag: ranges.Lag = Field(default=0.0, description="time constant of the relief valves; 0: none")
-    check_flow: Maybe[ranges.Flow] = Field(default=None, description="of the anti-cavitation valves; default `flow`")
-    check_pressure_drop: Maybe[ranges.Drop] = Field(default=None, description="of these; default `pressure_drop`")
+    opens_at: ranges.VaryingLevel = Field("difference of pressure of both lines")
+    opening_range: ranges.Drop = Field("from there to fully open", default=20e5)
+    lag: ranges.Lag = Field("time constant of the relief valves; 0: none", default=0.0)
+    check_flow: Maybe[ranges.Flow] = Field("of the anti-cavitation valves; default `flow`", default=None)
+    check_pressure_drop: Maybe[ranges.Drop] = Field("of these; default `pressure_drop`", default=None)
     check_opens_at: ranges.LeastDrop = Field(default=0.2e5)
     check_opening_range: ranges.Drop = Field(default=1e5)
     leakage: Leakage = Field(default=0.0)
@@ -175,9 +175,9 @@ class ReducingValve(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow", "position", "relief_flow")
 
     type: Literal["reducing-valve"] = "reducing-valve"
-    pressure: ranges.VaryingLevel = Field(description="at A, absolute, at which it is closed")
-    opening_range: ranges.Drop = Field(default=5e5, description="pressure below that at which it is fully open")
-    lag: ranges.Lag = Field(default=0.0, description="time constant of the opening; 0: none")
+    pressure: ranges.VaryingLevel = Field("at A, absolute, at which it is closed")
+    opening_range: ranges.Drop = Field("pressure below that at which it is fully open", default=5e5)
+    lag: ranges.Lag = Field("time constant of the opening; 0: none", default=0.0)
     leakage: Leakage = Field(default=0.0)
 
     @classmethod
@@ -198,9 +198,9 @@ class Compensator(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow", "position")
 
     type: Literal["compensator"] = "compensator"
-    margin: VaryingPressure = Field(default=7e5, description="held between A and LS", usual=ranges.DIFFERENCE)
-    opening_range: ranges.Drop = Field(default=6e5, description="from closed to fully open")
-    lag: ranges.Lag = Field(default=0.01, description="time constant of the opening; 0: none")
+    margin: VaryingPressure = Field("held between A and LS", default=7e5, usual=ranges.DIFFERENCE)
+    opening_range: ranges.Drop = Field("from closed to fully open", default=6e5)
+    lag: ranges.Lag = Field("time constant of the opening; 0: none", default=0.01)
     leakage: Leakage = Field(default=0.0)
 
 
@@ -214,10 +214,10 @@ class SequenceValve(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow", "position", "check_flow")
 
     type: Literal["sequence-valve"] = "sequence-valve"
-    opens_at: ranges.VaryingLevel = Field(description="pressure of P above that of the drain")
-    opening_range: ranges.Drop = Field(default=10e5, description="from there to fully open")
-    lag: ranges.Lag = Field(default=0.0, description="time constant of the opening; 0: none")
-    free_return: Truth = Field(default=False, description="whether a check valve lets fluid pass from A to P")
+    opens_at: ranges.VaryingLevel = Field("pressure of P above that of the drain")
+    opening_range: ranges.Drop = Field("from there to fully open", default=10e5)
+    lag: ranges.Lag = Field("time constant of the opening; 0: none", default=0.0)
+    free_return: Truth = Field("whether a check valve lets fluid pass from A to P", default=False)
     leakage: Leakage = Field(default=0.0)
 
     @classmethod
@@ -234,10 +234,10 @@ class SoftStart(Rated):
     passes: ClassVar[tuple[tuple[str, str], ...]] = (("P", "A"), ("A", "P"))
 
     type: Literal["soft-start"] = "soft-start"
-    throttle: Share = Field(default=0.05, description="opening while it fills, as a share of the whole one")
-    switches_at: Share = Field(default=0.5, description="p_A over p_P, absolute, at which it opens")
-    opening_range: ranges.Drop = Field(default=0.2e5, description="difference of pressure from there to fully open")
-    lag: ranges.Lag = Field(default=0.05, description="time constant of the opening; 0: none")
+    throttle: Share = Field("opening while it fills, as a share of the whole one", default=0.05)
+    switches_at: Share = Field("p_A over p_P, absolute, at which it opens", default=0.5)
+    opening_range: ranges.Drop = Field("difference of pressure from there to fully open", default=0.2e5)
+    lag: ranges.Lag = Field("time constant of the opening; 0: none", default=0.05)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

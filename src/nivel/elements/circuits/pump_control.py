@@ -39,8 +39,8 @@ from nivel.native.function import leaf, stage
 class CutOffCurve(Checked):
     """The greatest setting over the difference of pressure, straight lines between points, constant outside."""
 
-    pressures: Pressures = Field(description="difference of pressure, increasing")
-    settings: Numbers = Field(description="greatest share of the displacement there, from 0 to 1")
+    pressures: Pressures = Field("difference of pressure, increasing")
+    settings: Numbers = Field("greatest share of the displacement there, from 0 to 1")
 
     def problems(self) -> Iterator[Problem]:
         yield from rising("pressures", self.pressures)

@@ -39,7 +39,7 @@ class FlowSource(Component):
 
     type: Literal["flow-source"] = "flow-source"
     flow: Annotated[OneFunction, varying("volume flow")] = Field(
-        description="at the density of the side it comes from", usual=ranges.FLOW
+        "at the density of the side it comes from", usual=ranges.FLOW
     )
 
 
@@ -52,29 +52,25 @@ class Pump(RotaryMachine):
 
     type: Literal["pump"] = "pump"
     displacement: Displacement = Field(usual=ranges.PUMP_DISPLACEMENT)
-    speed: Maybe[Speed] = Field(
-        default=None, description="of its shaft, in place of `coordinate`", usual=ranges.SHAFT_SPEED
-    )
-    engine: Name | None = Field(default=None, description="that turns it, in place of `speed`")
-    setting: Setting = Field(default=1.0, description="share of the displacement")
+    speed: Maybe[Speed] = Field("of its shaft, in place of `coordinate`", default=None, usual=ranges.SHAFT_SPEED)
+    engine: Name | None = Field("that turns it, in place of `speed`", default=None)
+    setting: Setting = Field("share of the displacement", default=1.0)
     least_setting: Maybe[Annotated[OneNumber, Quantity("number")]] = Field(
-        default=None, description="of the actuator; default 0 with load sensing, else -1: it swings over centre"
+        "of the actuator; default 0 with load sensing, else -1: it swings over centre", default=None
     )
-    greatest_setting: Share = Field(default=1.0, description="of the actuator")
+    greatest_setting: Share = Field("of the actuator", default=1.0)
     torque_limit: Maybe[Torque] = Field(
+        "greatest torque of D times the pressure, without friction; with a port X, times the mean of both pressures",
         default=None,
-        description="greatest torque of D times the pressure, without friction; with a port X, times the mean of both pressures",
         usual=ranges.TORQUE,
     )
     cut_off_curve: Maybe[OneRecord[CutOffCurve]] = Field(
-        default=None, description="greatest setting over the difference of pressure"
+        "greatest setting over the difference of pressure", default=None
     )
-    margin: Maybe[ranges.Drop] = Field(default=None, description="load sensing: held between B and LS")
-    control_range: ranges.Drop = Field(
-        default=10e5, description="load sensing: pressure error at which it moves at full speed"
-    )
-    response: Duration = Field(default=0.08, description="load sensing: time from empty to full")
-    cut_off: Maybe[ranges.Drop] = Field(default=None, description="load sensing: greatest pressure at B")
+    margin: Maybe[ranges.Drop] = Field("load sensing: held between B and LS", default=None)
+    control_range: ranges.Drop = Field("load sensing: pressure error at which it moves at full speed", default=10e5)
+    response: Duration = Field("load sensing: time from empty to full", default=0.08)
+    cut_off: Maybe[ranges.Drop] = Field("load sensing: greatest pressure at B", default=None)
 
     @property
     def range_of_settings(self) -> tuple[float, float]:
@@ -119,7 +115,7 @@ class HydraulicMotor(RotaryMachine):
     functions: ClassVar[tuple[str, ...]] = ("setting",)
 
     type: Literal["hydraulic-motor"] = "hydraulic-motor"
-    setting: Setting = Field(default=1.0, description="share of the displacement")
+    setting: Setting = Field("share of the displacement", default=1.0)
 
     @property
     def losses(self) -> tuple[float, float]:

@@ -241,9 +241,9 @@ class Orifice(Rating, Component):
     type: Literal["orifice"] = "orifice"
     diameter: Maybe[ranges.Bore] = Field(default=None)
     discharge_coefficient: Share = Field(default=0.65)
-    leakage: Leakage = Field(default=0.0, description="flow over the difference of pressure, laminar")
-    opening: Opening = Field(default=1.0, description="from 0, closed, to 1")
-    transition: ranges.Drop = Field(default=0.5e5, description="difference of pressure below which the root is rounded")
+    leakage: Leakage = Field("flow over the difference of pressure, laminar", default=0.0)
+    opening: Opening = Field("from 0, closed, to 1", default=1.0)
+    transition: ranges.Drop = Field("difference of pressure below which the root is rounded", default=0.5e5)
 
     def problems(self) -> Iterator[Problem]:
         yield from Component.problems(self)

@@ -52,29 +52,23 @@ class RotaryMachine(Component):
     late: ClassVar[tuple[str, ...]] = ("flow", "torque", "power", "setting")
 
     displacement: Displacement = Field(usual=ranges.DISPLACEMENT)
-    coordinate: CoordinateReference | None = Field(
-        default=None, description="angle of a joint that its shaft turns with"
-    )
-    ratio: PositiveNumber = Field(default=1.0, description="turns of the shaft per turn of the joint")
-    volumetric_efficiency: Share = Field(default=1.0, description="at the nominal point")
-    mechanical_efficiency: Share = Field(default=1.0, description="at the nominal point")
-    nominal_pressure: Maybe[ranges.Drop] = Field(default=None, description="difference of pressure of the efficiencies")
+    coordinate: CoordinateReference | None = Field("angle of a joint that its shaft turns with", default=None)
+    ratio: PositiveNumber = Field("turns of the shaft per turn of the joint", default=1.0)
+    volumetric_efficiency: Share = Field("at the nominal point", default=1.0)
+    mechanical_efficiency: Share = Field("at the nominal point", default=1.0)
+    nominal_pressure: Maybe[ranges.Drop] = Field("difference of pressure of the efficiencies", default=None)
     nominal_speed: Maybe[PositiveAngularVelocity] = Field(
-        default=None, description="speed of the efficiencies", usual=ranges.SHAFT_SPEED
+        "speed of the efficiencies", default=None, usual=ranges.SHAFT_SPEED
     )
-    leakage: Leakage = Field(
-        default=0.0, description="flow over the difference of pressure, beside that of the efficiency"
-    )
-    pistons: Whole | None = Field(default=None, description="their number, an odd one, for the ripple of the flow")
+    leakage: Leakage = Field("flow over the difference of pressure, beside that of the efficiency", default=0.0)
+    pistons: Whole | None = Field("their number, an odd one, for the ripple of the flow", default=None)
     efficiency: Maybe[OneRecord[EfficiencyMap]] = Field(
-        default=None, description="a map, in place of the efficiencies at a nominal point"
+        "a map, in place of the efficiencies at a nominal point", default=None
     )
-    case_leakage: Leakage = Field(default=0.0, description="flow from A and from B to the drain L, laminar")
-    frequency: Maybe[Frequency] = Field(default=None, description="natural frequency of the actuator of the setting")
+    case_leakage: Leakage = Field("flow from A and from B to the drain L, laminar", default=0.0)
+    frequency: Maybe[Frequency] = Field("natural frequency of the actuator of the setting", default=None)
     damping_ratio: PositiveNumber = Field(default=0.8)
-    rate_limit: Maybe[Rate] = Field(
-        default=None, description="greatest speed of the setting; the actuator is then of first order"
-    )
+    rate_limit: Maybe[Rate] = Field("greatest speed of the setting; the actuator is then of first order", default=None)
 
     @property
     def range_of_settings(self) -> tuple[float, float]:

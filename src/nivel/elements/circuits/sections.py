@@ -70,55 +70,50 @@ class Section(Rated):
     )
 
     type: Literal["section"] = "section"
-    compensation: Literal["pre", "post", "none"] = Field(default="pre", description="where its compensator is")
-    command: Annotated[OneFunction, varying("number")] = Field(description="position asked for")
-    flow_B: Maybe[ranges.Flow] = Field(default=None, description="of the edge to B; default `flow`")
+    compensation: Literal["pre", "post", "none"] = Field("where its compensator is", default="pre")
+    command: Annotated[OneFunction, varying("number")] = Field("position asked for")
+    flow_B: Maybe[ranges.Flow] = Field("of the edge to B; default `flow`", default=None)
     return_flow: Maybe[ranges.Flow] = Field(
-        default=None, description="of the edges to T, at `pressure_drop`; default: that of the other edges"
+        "of the edges to T, at `pressure_drop`; default: that of the other edges", default=None
     )
-    overlap: Annotated[OneNumber, Quantity("number")] = Field(
-        default=0.05, description="share of the stroke before an edge opens"
-    )
-    rounding: Proportion = Field(default=0.02, description="share of the stroke over which an edge begins to open")
-    frequency: Maybe[ranges.SpoolFrequency] = Field(
-        default=None, description="natural frequency of the spool; default: no lag"
-    )
-    damping_ratio: PositiveNumber = Field(default=0.8, description="of the spool")
+    overlap: Annotated[OneNumber, Quantity("number")] = Field("share of the stroke before an edge opens", default=0.05)
+    rounding: Proportion = Field("share of the stroke over which an edge begins to open", default=0.02)
+    frequency: Maybe[ranges.SpoolFrequency] = Field("natural frequency of the spool; default: no lag", default=None)
+    damping_ratio: PositiveNumber = Field("of the spool", default=0.8)
     margin: VaryingPressure = Field(
-        default=7e5, description="of pre: held over the spool; of post: above LS; 0 of post with `saturation_share`"
+        "of pre: held over the spool; of post: above LS; 0 of post with `saturation_share`", default=7e5
     )
     saturation_share: Maybe[Proportion] = Field(
-        default=None, description="of pre, in place of `margin`: share of p_P - p_LS, so that all fall together"
+        "of pre, in place of `margin`: share of p_P - p_LS, so that all fall together", default=None
     )
-    opening_range: ranges.Drop = Field(default=4e5, description="of the compensator, from closed to fully open")
+    opening_range: ranges.Drop = Field("of the compensator, from closed to fully open", default=4e5)
     compensator_flow: Maybe[ranges.Flow] = Field(
-        default=None, description="of it, fully open, at `pressure_drop`; default twice `flow`"
+        "of it, fully open, at `pressure_drop`; default twice `flow`", default=None
     )
-    lag: ranges.Lag = Field(default=0.01, description="time constant of the compensator; 0: none")
-    leakage: Leakage = Field(default=0.0, description="of each edge")
-    inner_volume: ranges.Size = Field(default=INNER_VOLUME, description="between spool and compensator")
+    lag: ranges.Lag = Field("time constant of the compensator; 0: none", default=0.01)
+    leakage: Leakage = Field("of each edge", default=0.0)
+    inner_volume: ranges.Size = Field("between spool and compensator", default=INNER_VOLUME)
     open_centre: Literal["parallel", "tandem", "series"] | None = Field(
-        default=None,
-        description="a 6/3 section: P feeds it; N does, and it cuts off the next ones; it returns to C too",
+        "a 6/3 section: P feeds it; N does, and it cuts off the next ones; it returns to C too", default=None
     )
     bypass_flow: Maybe[ranges.Flow] = Field(
-        default=None, description="from N to C in the middle, at `pressure_drop`; default `flow`"
+        "from N to C in the middle, at `pressure_drop`; default `flow`", default=None
     )
-    bypass_closes: Proportion = Field(default=0.7, description="share of the stroke at which N and C are apart")
+    bypass_closes: Proportion = Field("share of the stroke at which N and C are apart", default=0.7)
     parallel_flow: Maybe[ranges.Flow] = Field(
-        default=None, description="of tandem, from P at `pressure_drop`: what others before it leave of its feed"
+        "of tandem, from P at `pressure_drop`: what others before it leave of its feed", default=None
     )
     float_from: Maybe[Proportion] = Field(
-        default=None, description="share of the stroke to B from which on A, B and T are joined and P is closed"
+        "share of the stroke to B from which on A, B and T are joined and P is closed", default=None
     )
     regeneration: Literal["A", "B"] | None = Field(
-        default=None, description="side that also gets what comes out of the other one, through a check valve"
+        "side that also gets what comes out of the other one, through a check valve", default=None
     )
     regeneration_until: VaryingPressure = Field(
-        default=1e7, description="of the side with `regeneration` over the return, from which on the other one drains"
+        "of the side with `regeneration` over the return, from which on the other one drains", default=1e7
     )
     holding: Literal["A", "B", "both"] | None = Field(
-        default=None, description="sides with a poppet that is tight until the spool moves to the other side"
+        "sides with a poppet that is tight until the spool moves to the other side", default=None
     )
 
     @classmethod

@@ -69,32 +69,22 @@ class SpoolValve(Component):
     loads: ClassVar[bool] = True
 
     type: Literal["spool-valve"] = "spool-valve"
-    edges: Edges = Field(description="by pairs of ports: PA is from P to A")
-    command: Maybe[Annotated[OneFunction, varying("number")]] = Field(default=None, description="position asked for")
+    edges: Edges = Field("by pairs of ports: PA is from P to A")
+    command: Maybe[Annotated[OneFunction, varying("number")]] = Field("position asked for", default=None)
     current: Maybe[Annotated[OneFunction, varying("current")]] = Field(
-        default=None,
-        description="of its `solenoid`, in place of `command`; negative: of the second one",
-        usual=ranges.CURRENT,
+        "of its `solenoid`, in place of `command`; negative: of the second one", default=None, usual=ranges.CURRENT
     )
-    solenoid: Maybe[OneRecord[spools.Solenoid]] = Field(default=None, description="with the springs of the spool")
-    switching: Maybe[OneRecord[spools.Switching]] = Field(default=None, description="whether it is on or off alone")
+    solenoid: Maybe[OneRecord[spools.Solenoid]] = Field("with the springs of the spool", default=None)
+    switching: Maybe[OneRecord[spools.Switching]] = Field("whether it is on or off alone", default=None)
     stroke: Maybe[PositiveLength] = Field(
-        default=None,
-        description="from the middle to the full stroke, of notches and springs",
-        usual=ranges.SPOOL_STROKE,
+        "from the middle to the full stroke, of notches and springs", default=None, usual=ranges.SPOOL_STROKE
     )
-    frequency: Maybe[ranges.SpoolFrequency] = Field(
-        default=None, description="natural frequency of the spool; default: no lag"
-    )
-    damping_ratio: PositiveNumber = Field(default=0.8, description="of the spool")
-    dead_band: Annotated[OneNumber, Quantity("number")] = Field(
-        default=0.0, description="share of the command that does nothing"
-    )
-    hysteresis: NotNegativeNumber = Field(
-        default=0.0, description="share of the full command between the curves up and down"
-    )
+    frequency: Maybe[ranges.SpoolFrequency] = Field("natural frequency of the spool; default: no lag", default=None)
+    damping_ratio: PositiveNumber = Field("of the spool", default=0.8)
+    dead_band: Annotated[OneNumber, Quantity("number")] = Field("share of the command that does nothing", default=0.0)
+    hysteresis: NotNegativeNumber = Field("share of the full command between the curves up and down", default=0.0)
     dither: Maybe[OneRecord[spools.Dither]] = Field(default=None)
-    transition: ranges.Drop = Field(default=0.5e5, description="difference of pressure below which the root is rounded")
+    transition: ranges.Drop = Field("difference of pressure below which the root is rounded", default=0.5e5)
 
     @classmethod
     def signals_in(cls, data: Any) -> tuple[str, ...]:

@@ -46,28 +46,26 @@ SYMBOL, CURRENT_SYMBOL = "position", "current"
 class Switching(Checked):
     """Delays of a valve that is on or off: on where its command is above one half."""
 
-    on_delay: NotNegativeDuration = Field(default=0.0, description="from the command until it moves")
-    off_delay: NotNegativeDuration = Field(default=0.0, description="the same when it is switched off")
-    time: Duration = Field(default=0.01, description="from where it begins to move until it is open, or closed")
+    on_delay: NotNegativeDuration = Field("from the command until it moves", default=0.0)
+    off_delay: NotNegativeDuration = Field("the same when it is switched off", default=0.0)
+    time: Duration = Field("from where it begins to move until it is open, or closed", default=0.01)
 
 
 class Solenoid(Checked):
     """Forces of proportional solenoids, with springs that centre the spool or push it back."""
 
-    force: Annotated[SomeCurve, CurveOf("force", CURRENT_SYMBOL)] = Field(
-        description="over the magnitude of the current"
-    )
-    spring: Annotated[OneNumber, Quantity("stiffness", positive=True)] = Field(description="stiffness of the spring")
-    preload: NotNegativeForce = Field(default=0.0, description="of the spring in its middle")
-    friction: NotNegativeForce = Field(default=0.0, description="of the spool; dither overcomes it")
-    transition_speed: PositiveNumber = Field(default=0.02, description="strokes per second: friction changes its sign")
-    flow_force: Truth = Field(default=True, description="whether the force of the flow acts on the spool")
+    force: Annotated[SomeCurve, CurveOf("force", CURRENT_SYMBOL)] = Field("over the magnitude of the current")
+    spring: Annotated[OneNumber, Quantity("stiffness", positive=True)] = Field("stiffness of the spring")
+    preload: NotNegativeForce = Field("of the spring in its middle", default=0.0)
+    friction: NotNegativeForce = Field("of the spool; dither overcomes it", default=0.0)
+    transition_speed: PositiveNumber = Field("strokes per second: friction changes its sign", default=0.02)
+    flow_force: Truth = Field("whether the force of the flow acts on the spool", default=True)
 
 
 class Dither(Checked):
     """A vibration of the command."""
 
-    amplitude: PositiveNumber = Field(description="share of the full command, of the full force of solenoids")
+    amplitude: PositiveNumber = Field("share of the full command, of the full force of solenoids")
     frequency: Frequency
 
 

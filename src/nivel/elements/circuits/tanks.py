@@ -48,24 +48,21 @@ class Volume(Component):
     type: Literal["volume"] = "volume"
     volume: ranges.Size = Field(default=2e-4)
     wall_modulus: Maybe[ranges.WallModulus] = Field(
-        default=None, description="pressure over the relative growth of the volume; default: rigid walls"
+        "pressure over the relative growth of the volume; default: rigid walls", default=None
     )
     expansion: Maybe[OneRecord[VolumeExpansion]] = Field(
-        default=None, description="growth of the volume over the pressure, of a hose, in place of `wall_modulus`"
+        "growth of the volume over the pressure, of a hose, in place of `wall_modulus`", default=None
     )
     heat_conductance: Maybe[ThermalConductance] = Field(
+        "of gases, and of liquids that are not isothermal: heat through walls over the difference of temperature",
         default=None,
-        description="of gases, and of liquids that are not isothermal: heat through walls over the difference of temperature",
     )
     heat_transfer: Maybe[ranges.WallTransfer] = Field(
-        default=None,
-        description="of gases: heat over a `surface` and the difference of temperature; not with `heat_conductance`",
+        "of gases: heat over a `surface` and the difference of temperature; not with `heat_conductance`", default=None
     )
-    surface: Maybe[Area] = Field(default=None, description="of its walls, with `heat_transfer`", usual=ranges.SURFACE)
-    start: Maybe[ranges.Level] = Field(
-        default=None, description="pressure at the start; default: that of a steady circuit"
-    )
-    fluid: Name | None = Field(default=None, description="default: the only one")
+    surface: Maybe[Area] = Field("of its walls, with `heat_transfer`", default=None, usual=ranges.SURFACE)
+    start: Maybe[ranges.Level] = Field("pressure at the start; default: that of a steady circuit", default=None)
+    fluid: Name | None = Field("default: the only one", default=None)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -88,13 +85,11 @@ class Tank(Component):
     gases: ClassVar[bool] = True
 
     type: Literal["tank"] = "tank"
-    pressure: ranges.VaryingLevel = Field(default=ATMOSPHERE, description="absolute")
+    pressure: ranges.VaryingLevel = Field("absolute", default=ATMOSPHERE)
     temperature: Maybe[VaryingTemperature] = Field(
-        default=None,
-        description="of a liquid that is not isothermal; default: that of the fluid",
-        usual=ranges.TEMPERATURE,
+        "of a liquid that is not isothermal; default: that of the fluid", default=None, usual=ranges.TEMPERATURE
     )
-    fluid: Name | None = Field(default=None, description="default: the only one")
+    fluid: Name | None = Field("default: the only one", default=None)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -110,22 +105,18 @@ class Reservoir(Component):
     early: ClassVar[tuple[str, ...]] = ("pressure", "level", "oil", "temperature")
 
     type: Literal["reservoir"] = "reservoir"
-    volume: ranges.Size = Field(description="of liquid and air")
-    oil: ranges.Size = Field(description="volume of the liquid at the start")
+    volume: ranges.Size = Field("of liquid and air")
+    oil: ranges.Size = Field("volume of the liquid at the start")
     height: Maybe[PositiveLength] = Field(
-        default=None,
-        description="of the tank, whose walls are upright; default: that of a cube",
-        usual=ranges.TANK_HEIGHT,
+        "of the tank, whose walls are upright; default: that of a cube", default=None, usual=ranges.TANK_HEIGHT
     )
-    closed: Truth = Field(default=False, description="whether its air is closed in; else it comes and goes")
+    closed: Truth = Field("whether its air is closed in; else it comes and goes", default=False)
     start: Maybe[ranges.Level] = Field(
-        default=None, description="pressure of the air at the start, absolute; default: that of the atmosphere"
+        "pressure of the air at the start, absolute; default: that of the atmosphere", default=None
     )
-    gas_exponent: Maybe[Exponent] = Field(
-        default=None, description="polytropic exponent of air that is closed in; default 1"
-    )
-    heat_conductance: Maybe[ThermalConductance] = Field(default=None, description="as of a volume")
-    fluid: Name | None = Field(default=None, description="default: the only one")
+    gas_exponent: Maybe[Exponent] = Field("polytropic exponent of air that is closed in; default 1", default=None)
+    heat_conductance: Maybe[ThermalConductance] = Field("as of a volume", default=None)
+    fluid: Name | None = Field("default: the only one", default=None)
 
     @property
     def pressure(self) -> float:

@@ -49,17 +49,15 @@ class Tube(Component):
     late: ClassVar[tuple[str, ...]] = ("flow_A", "flow_B")
 
     type: Literal["tube"] = "tube"
-    diameter: ranges.Bore = Field(description="inside")
+    diameter: ranges.Bore = Field("inside")
     length: ranges.PipeLength = Field()
-    segments: Whole = Field(default=10, description="number of its volumes, up to 100")
-    bends: NotNegativeNumber = Field(default=0.0, description="sum of the loss coefficients of bends and fittings")
+    segments: Whole = Field("number of its volumes, up to 100", default=10)
+    bends: NotNegativeNumber = Field("sum of the loss coefficients of bends and fittings", default=0.0)
     heat_transfer: ranges.WallTransfer = Field(
-        default=0.0, description="heat over the area of its walls and the difference of temperature"
+        "heat over the area of its walls and the difference of temperature", default=0.0
     )
-    start: Maybe[ranges.Level] = Field(
-        default=None, description="pressure at the start; default: that of a steady circuit"
-    )
-    fluid: Name | None = Field(default=None, description="default: the only one")
+    start: Maybe[ranges.Level] = Field("pressure at the start; default: that of a steady circuit", default=None)
+    fluid: Name | None = Field("default: the only one", default=None)
 
     @classmethod
     def nodes_in(cls, data: Any) -> tuple[str, ...]:

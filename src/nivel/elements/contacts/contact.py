@@ -103,67 +103,63 @@ class Contact(ForceElement):
 
     type: Literal["contact"] = "contact"
     body: BodyName | None = Field(
+        "that touches the `plane`; its shape is sphere, capsule, ellipsoid, box, cylinder, extrusion or mesh",
         default=None,
-        description="that touches the `plane`; its shape is sphere, capsule, ellipsoid, box, cylinder, extrusion or mesh",
     )
     plane: Maybe[MarkerPlace] = Field(
-        default=None, description="a marker: its point lies in the plane, its z axis points out of it"
+        "a marker: its point lies in the plane, its z axis points out of it", default=None
     )
     heights: Maybe[OneRecord[HeightField]] = Field(
-        default=None, description="of ground that is not flat, along the z axis of the `plane` over its x and y axes"
+        "of ground that is not flat, along the z axis of the `plane` over its x and y axes", default=None
     )
-    bodies: Maybe[TwoNames[BodyName]] = Field(
-        default=None,
-        description="two bodies with a shape, in place of `body` and `plane`",
-    )
+    bodies: Maybe[TwoNames[BodyName]] = Field("two bodies with a shape, in place of `body` and `plane`", default=None)
     parts: Maybe[TwoNumbers[Whole]] = Field(
-        default=None,
-        description="numbers of the convex parts of both `bodies`, from 1; filled where a mesh has `convex_parts`",
+        "numbers of the convex parts of both `bodies`, from 1; filled where a mesh has `convex_parts`", default=None
     )
-    exponent: Exponent = Field(default=HERTZ, description="of the depth")
-    stiffness: Maybe[PowerStiffness] = Field(default=None, description="force by depth ** exponent")
+    exponent: Exponent = Field("of the depth", default=HERTZ)
+    stiffness: Maybe[PowerStiffness] = Field("force by depth ** exponent", default=None)
     materials: Maybe[TwoRecords[Material]] = Field(
-        default=None, description="of the first body and the second or the plane; for spheres, in place of `stiffness`"
+        "of the first body and the second or the plane; for spheres, in place of `stiffness`", default=None
     )
     foundation_modulus: Maybe[FoundationModulus] = Field(
+        "pressure by depth where two bodies of the shapes box, cylinder, extrusion and mesh touch, in place of `stiffness`",
         default=None,
-        description="pressure by depth where two bodies of the shapes box, cylinder, extrusion and mesh touch, in place of `stiffness`",
     )
     damping: Maybe[DampingPerLoad] = Field(
+        "the force, or the pressure of a `foundation_modulus`, is times 1 + damping · speed of approach; 0 loses no energy",
         default=None,
-        description="the force, or the pressure of a `foundation_modulus`, is times 1 + damping · speed of approach; 0 loses no energy",
     )
     restitution: Maybe[Restitution] = Field(
-        default=None, description="speed after the impact by the speed before it; 1 loses no energy"
+        "speed after the impact by the speed before it; 1 loses no energy", default=None
     )
     law: Maybe[ContactForce] = Field(
+        "the normal force at a point that touches, in place of `stiffness` and `restitution`; may use `depth` and `rate`",
         default=None,
-        description="the normal force at a point that touches, in place of `stiffness` and `restitution`; may use `depth` and `rate`",
     )
-    friction: NotNegativeNumber = Field(default=0.0, description="coefficient of kinetic friction")
-    static_friction: Maybe[PositiveNumber] = Field(default=None, description="coefficient, default `friction`")
-    friction_model: Maybe[FrictionModel] = Field(default=None, description=FRICTION_MODELS)
+    friction: NotNegativeNumber = Field("coefficient of kinetic friction", default=0.0)
+    static_friction: Maybe[PositiveNumber] = Field("coefficient, default `friction`", default=None)
+    friction_model: Maybe[FrictionModel] = Field(FRICTION_MODELS, default=None)
     friction_transition_speed: Maybe[PositiveSpeed] = Field(
-        default=None, description="of `friction_model: coulomb`; stiction makes no use of it in motion"
+        "of `friction_model: coulomb`; stiction makes no use of it in motion", default=None
     )
     rolling_resistance: NotNegativeLength = Field(
-        default=0.0, description="lever arm b of a moment up to b · normal force that brakes rolling"
+        "lever arm b of a moment up to b · normal force that brakes rolling", default=0.0
     )
     patch_radius: Maybe[PositiveLength] = Field(
+        "of an evenly pressed disc whose friction brakes spinning, by up to friction · normal force · 2/3 of it",
         default=None,
-        description="of an evenly pressed disc whose friction brakes spinning, by up to friction · normal force · 2/3 of it",
         absent="by the points that touch; none of a single one",
     )
     friction_work: bool = Field(
-        default=False, description="the heat of friction since the start is an output too, and a state of the run"
+        "the heat of friction since the start is an output too, and a state of the run", default=False
     )
 
     surface_velocity: Maybe[Annotated[ThreeFunctions[SurfaceVelocity], BeforeValidator(listed)]] = Field(
+        "of the surface of the plane, along the axes of its marker, or of the second body, along its axes, over this body",
         default=None,
-        description="of the surface of the plane, along the axes of its marker, or of the second body, along its axes, over this body",
     )
     surface_spin: Maybe[SurfaceSpin] = Field(
-        default=None, description="of the surface of the plane about the z axis through the point of its marker"
+        "of the surface of the plane about the z axis through the point of its marker", default=None
     )
 
     def problems(self) -> Iterator[Problem]:
@@ -298,28 +294,25 @@ class Contacts(ForceElement):
 
     type: Literal["contacts"] = "contacts"
     between: Annotated[ManyNames[BodyName], BeforeValidator(_all_or_names)] = Field(
-        description="`all` bodies whose shape is a sphere, or the names of some: each touches each other"
+        "`all` bodies whose shape is a sphere, or the names of some: each touches each other"
     )
     planes: Annotated[ManyMarkers, BeforeValidator(listed)] = Field(
-        default=(), description="markers: all bodies touch them too, on the side of the z axis"
+        "markers: all bodies touch them too, on the side of the z axis", default=()
     )
-    exponent: Exponent = Field(default=HERTZ, description="of the depth")
-    stiffness: PowerStiffness = Field(description="force by depth ** exponent")
-    restitution: Restitution = Field(description="speed after the impact by the speed before it; 1 loses no energy")
-    friction: NotNegativeNumber = Field(default=0.0, description="coefficient of kinetic friction")
-    static_friction: Maybe[PositiveNumber] = Field(
-        default=None, description="of stiction: coefficient, default `friction`"
-    )
+    exponent: Exponent = Field("of the depth", default=HERTZ)
+    stiffness: PowerStiffness = Field("force by depth ** exponent")
+    restitution: Restitution = Field("speed after the impact by the speed before it; 1 loses no energy")
+    friction: NotNegativeNumber = Field("coefficient of kinetic friction", default=0.0)
+    static_friction: Maybe[PositiveNumber] = Field("of stiction: coefficient, default `friction`", default=None)
     friction_model: Maybe[FrictionModel] = Field(
-        default=None,
-        description=f"{FRICTION_MODELS}; stiction is for at most {MOST_PAIRS} pairs, which become single contacts",
+        f"{FRICTION_MODELS}; stiction is for at most {MOST_PAIRS} pairs, which become single contacts", default=None
     )
     friction_transition_speed: Maybe[PositiveSpeed] = Field(
-        default=None, description="friction goes as tanh(sliding speed / this), so bodies creep"
+        "friction goes as tanh(sliding speed / this), so bodies creep", default=None
     )
 
     friction_work: bool = Field(
-        default=False, description="the heat of friction since the start is an output too, and a state of the run"
+        "the heat of friction since the start is an output too, and a state of the run", default=False
     )
 
     def problems(self) -> Iterator[Problem]:

@@ -77,28 +77,26 @@ class HeightField(Checked):
     The first row of `values` and of a CSV file is at the least y, the top row of a picture at the greatest. Each row goes along x.
     """
 
-    size: TwoNumbers[PositiveLength] = Field(
-        description="lengths of the rectangle along the x and y axes of the plane's marker"
-    )
+    size: TwoNumbers[PositiveLength] = Field("lengths of the rectangle along the x and y axes of the plane's marker")
     values: Maybe[ManyRows[Annotated[tuple[Length, ...], BeforeValidator(listed)]]] = Field(
-        default=None, description="rows of heights along z, from the least y on; along each row x grows"
+        "rows of heights along z, from the least y on; along each row x grows", default=None
     )
     file: str | None = Field(
-        default=None, description="CSV file of rows of heights, or PNG picture in grey, relative to the machine file"
+        "CSV file of rows of heights, or PNG picture in grey, relative to the machine file", default=None
     )
     unit: PositiveLength = Field(
-        default=1.0, description="length of one unit of the `file`; of a picture the height of white above black"
+        "length of one unit of the `file`; of a picture the height of white above black", default=1.0
     )
     function: Annotated[str | None, BeforeValidator(_of_place)] = Field(
-        default=None, description="height [m] as an expression of `x` and `y` [m]"
+        "height [m] as an expression of `x` and `y` [m]", default=None
     )
     points: TwoNumbers[Whole] = Field(
-        default=POINTS, description="of a `function` or of `roughness` alone: numbers of heights along x and along y"
+        "of a `function` or of `roughness` alone: numbers of heights along x and along y", default=POINTS
     )
     roughness: Literal["A", "B", "C", "D", "E", "F", "G", "H"] | None = Field(
-        default=None, description="class of ISO 8608 of what is added to the heights along every line"
+        "class of ISO 8608 of what is added to the heights along every line", default=None
     )
-    seed: Whole = Field(default=1, description="of the `roughness`: another number is another road of the same class")
+    seed: Whole = Field("of the `roughness`: another number is another road of the same class", default=1)
 
     def problems(self) -> Iterator[Problem]:
         if self.file is None and self.unit != 1.0:

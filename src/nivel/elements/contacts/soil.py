@@ -39,14 +39,14 @@ class Soil(Checked):
 
     density: Density = Field(default=1700.0)
     cohesion: NotNegativePressure = Field(default=0.0)
-    friction_angle: PositiveAngle = Field(default=math.radians(35.0), description="inner one")
-    tool_friction: PositiveAngle = Field(default=math.radians(23.0), description="angle of friction on a blade")
-    repose: PositiveAngle = Field(default=math.radians(35.0), description="steepest slope that does not slide")
-    modulus: Modulus = Field(default=1.5e6, description="k of the pressure k z^n at the sinkage z, in metres")
-    exponent: PositiveNumber = Field(default=0.7, description="n of the pressure k z^n")
-    unloading: Modulus = Field(default=5e8, description="pressure by rise of unloaded soil")
-    shear_length: PositiveLength = Field(default=0.025, description="sliding after which 63 % of the strength acts")
-    period: Duration = Field(default=1e-3, description="between two changes of the cells")
+    friction_angle: PositiveAngle = Field("inner one", default=math.radians(35.0))
+    tool_friction: PositiveAngle = Field("angle of friction on a blade", default=math.radians(23.0))
+    repose: PositiveAngle = Field("steepest slope that does not slide", default=math.radians(35.0))
+    modulus: Modulus = Field("k of the pressure k z^n at the sinkage z, in metres", default=1.5e6)
+    exponent: PositiveNumber = Field("n of the pressure k z^n", default=0.7)
+    unloading: Modulus = Field("pressure by rise of unloaded soil", default=5e8)
+    shear_length: PositiveLength = Field("sliding after which 63 % of the strength acts", default=0.025)
+    period: Duration = Field("between two changes of the cells", default=1e-3)
 
     def problems(self) -> Iterator[Problem]:
         if self.friction_angle + self.tool_friction > math.radians(80.0):
@@ -86,9 +86,9 @@ class OnSoil(ForceElement):
 
     turns: ClassVar[bool] = True
 
-    plane: MarkerPlace = Field(description="marker on the ground: its point lies in it, its z axis points out of it")
-    heights: OneRecord[HeightField] = Field(description="of the soil at the start, over the axes of the `plane`")
-    soil: OneRecord[Soil] = Field(description="its numbers")
+    plane: MarkerPlace = Field("marker on the ground: its point lies in it, its z axis points out of it")
+    heights: OneRecord[HeightField] = Field("of the soil at the start, over the axes of the `plane`")
+    soil: OneRecord[Soil] = Field("its numbers")
 
 
 class SoilUnit:

@@ -26,7 +26,7 @@ class SignalBlock(Block):
     """A function of time and symbols under a name: a set-point, a measured value, a law in Python."""
 
     type: Literal["signal"] = "signal"
-    value: Input = Field(description="expression of `time` and symbols, table, or law in Python")
+    value: Input = Field("expression of `time` and symbols, table, or law in Python")
 
     def computation(self) -> tuple[Part, ...]:
         return (self.present(self.output, self.value, key="value"),)
@@ -37,7 +37,7 @@ class OfInput(Block):
 
     quantities = ("value", "input")
 
-    input: Input = Field(description="expression of `time` and symbols")
+    input: Input = Field("expression of `time` and symbols")
 
     @property
     def taken(self) -> Part:
@@ -63,10 +63,8 @@ class Sum(Block):
     """Σ factor · input."""
 
     type: Literal["sum"] = "sum"
-    inputs: Annotated[ManyFunctions[Input], BeforeValidator(listed)] = Field(
-        description="expressions of `time` and symbols"
-    )
-    factors: Maybe[Numbers] = Field(default=None, description="one for each input; default 1")
+    inputs: Annotated[ManyFunctions[Input], BeforeValidator(listed)] = Field("expressions of `time` and symbols")
+    factors: Maybe[Numbers] = Field("one for each input; default 1", default=None)
 
     def computation(self) -> tuple[Part, ...]:
         names = [f"input_{k + 1}" for k in range(len(self.inputs))]
@@ -88,7 +86,7 @@ class Limit(OfInput):
     """The input, cut off at both limits."""
 
     type: Literal["limit"] = "limit"
-    limits: Pair = Field(description="lower and upper limit")
+    limits: Pair = Field("lower and upper limit")
 
     def computation(self) -> tuple[Part, ...]:
         return self.taken, self.present(self.output, limited(self.input_path, self.limits))
@@ -102,7 +100,7 @@ class DeadZone(OfInput):
     """How far the input is outside of a band: zero within, its distance from the band outside."""
 
     type: Literal["dead-zone"] = "dead-zone"
-    band: Pair = Field(description="lower and upper end")
+    band: Pair = Field("lower and upper end")
 
     def computation(self) -> tuple[Part, ...]:
         return self.taken, self.present(self.output, beyond(self.input_path, self.band))
@@ -116,9 +114,9 @@ class Switch(Block):
     """`then` while the condition holds, else `otherwise`."""
 
     type: Literal["switch"] = "switch"
-    when: Condition = Field(description="comparison such as `boom.angle > 0.5`, or a value that is positive")
-    then: Input = Field(description="expression of `time` and symbols")
-    otherwise: Input = Field(description="expression of `time` and symbols")
+    when: Condition = Field("comparison such as `boom.angle > 0.5`, or a value that is positive")
+    then: Input = Field("expression of `time` and symbols")
+    otherwise: Input = Field("expression of `time` and symbols")
 
     def computation(self) -> tuple[Part, ...]:
         parts = {"condition": self.when, "then": self.then, "otherwise": self.otherwise}
@@ -132,9 +130,9 @@ class Lookup(OfInput):
     """A table over the input; beyond its ends the end values hold."""
 
     type: Literal["lookup"] = "lookup"
-    points: Numbers = Field(description="values of the input, increasing")
-    values: Numbers = Field(description="what the table gives there")
-    interpolation: Interpolation = Field(default="linear", description="straight lines, or a natural cubic spline")
+    points: Numbers = Field("values of the input, increasing")
+    values: Numbers = Field("what the table gives there")
+    interpolation: Interpolation = Field("straight lines, or a natural cubic spline", default="linear")
 
     def computation(self) -> tuple[Part, ...]:
         table = Table(self.points, self.values, self.interpolation, self.input_path)
@@ -159,15 +157,13 @@ class Map(Block):
     """
 
     type: Literal["map"] = "map"
-    inputs: Annotated[ManyFunctions[Input], BeforeValidator(listed)] = Field(description="two or three expressions")
-    points: Matrix = Field(description="a list for each input, increasing")
+    inputs: Annotated[ManyFunctions[Input], BeforeValidator(listed)] = Field("two or three expressions")
+    points: Matrix = Field("a list for each input, increasing")
     values: Matrix = Field(
-        description="a row for each point of the first input, a column for each of the last; of three inputs a row for each pair of "
+        "a row for each point of the first input, a column for each of the last; of three inputs a row for each pair of "
         "points of the first two, among which the second counts faster"
     )
-    interpolation: Literal["linear", "cubic"] = Field(
-        default="linear", description="straight lines, or natural cubic splines"
-    )
+    interpolation: Literal["linear", "cubic"] = Field("straight lines, or natural cubic splines", default="linear")
 
     def computation(self) -> tuple[Part, ...]:
         names = [f"input_{k + 1}" for k in range(len(self.inputs))]

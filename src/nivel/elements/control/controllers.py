@@ -26,22 +26,22 @@ class Pid(Block):
     quantities = ("value", "error", "integral", "unlimited")
 
     type: Literal["pid"] = "pid"
-    input: Maybe[Input] = Field(default=None, description="the error, set-point less measured value")
-    reference: Maybe[Input] = Field(default=None, description="the set-point r, in place of `input`; with `measured`")
-    measured: Maybe[Input] = Field(default=None, description="the measured value y, in place of `input`")
-    kp: Number = Field(default=0.0, description="proportional gain")
-    ki: Number = Field(default=0.0, description="integral gain, per second")
-    kd: Number = Field(default=0.0, description="derivative gain, seconds")
-    limits: Maybe[Pair] = Field(default=None, description="lower and upper limit of the value")
-    feedforward: Maybe[Input] = Field(default=None, description="what is added before the limits")
-    set_point_weight: Number = Field(default=1.0, description="β, the share of the set-point in the proportional part")
+    input: Maybe[Input] = Field("the error, set-point less measured value", default=None)
+    reference: Maybe[Input] = Field("the set-point r, in place of `input`; with `measured`", default=None)
+    measured: Maybe[Input] = Field("the measured value y, in place of `input`", default=None)
+    kp: Number = Field("proportional gain", default=0.0)
+    ki: Number = Field("integral gain, per second", default=0.0)
+    kd: Number = Field("derivative gain, seconds", default=0.0)
+    limits: Maybe[Pair] = Field("lower and upper limit of the value", default=None)
+    feedforward: Maybe[Input] = Field("what is added before the limits", default=None)
+    set_point_weight: Number = Field("β, the share of the set-point in the proportional part", default=1.0)
     filter_time: Maybe[NotNegativeTime] = Field(
-        default=None, description="time constant of the derivative's filter; default a tenth of kd/kp"
+        "time constant of the derivative's filter; default a tenth of kd/kp", default=None
     )
     tracking_time: Maybe[Duration] = Field(
-        default=None, description="with which the integral is led back at a limit; default √(kp/ki · kd/kp), or kp/ki"
+        "with which the integral is led back at a limit; default √(kp/ki · kd/kp), or kp/ki", default=None
     )
-    start: Number = Field(default=0.0, description="value of the integral at the start")
+    start: Number = Field("value of the integral at the start", default=0.0)
 
     @property
     def filter(self) -> float:
@@ -142,19 +142,17 @@ class Cascade(Block):
     quantities = ("value", "error", "wished_speed", "speed_error", "integral")
 
     type: Literal["cascade"] = "cascade"
-    reference: Maybe[Input] = Field(default=None, description="commanded position r")
-    measured: Maybe[Input] = Field(default=None, description="position y")
-    measured_speed: Input = Field(description="its rate ẏ")
-    speed_reference: Input = Field(
-        default=0.0, description="commanded speed, or with a `reference` its rate, fed forward"
-    )
-    position_gain: Maybe[PositiveNumber] = Field(default=None, description="speed per position error, 1/s")
-    speed_gain: PositiveNumber = Field(description="value per speed error")
-    integral_time: Maybe[Duration] = Field(default=None, description="T; without it there is no integral")
-    speed_limit: Maybe[PositiveNumber] = Field(default=None, description="greatest magnitude of the commanded speed")
-    feedforward: Maybe[Input] = Field(default=None, description="what is added before the limits, such as a weight")
-    limits: Maybe[Pair] = Field(default=None, description="lower and upper limit of the value")
-    start: Number = Field(default=0.0, description="value of the integral at the start")
+    reference: Maybe[Input] = Field("commanded position r", default=None)
+    measured: Maybe[Input] = Field("position y", default=None)
+    measured_speed: Input = Field("its rate ẏ")
+    speed_reference: Input = Field("commanded speed, or with a `reference` its rate, fed forward", default=0.0)
+    position_gain: Maybe[PositiveNumber] = Field("speed per position error, 1/s", default=None)
+    speed_gain: PositiveNumber = Field("value per speed error")
+    integral_time: Maybe[Duration] = Field("T; without it there is no integral", default=None)
+    speed_limit: Maybe[PositiveNumber] = Field("greatest magnitude of the commanded speed", default=None)
+    feedforward: Maybe[Input] = Field("what is added before the limits, such as a weight", default=None)
+    limits: Maybe[Pair] = Field("lower and upper limit of the value", default=None)
+    start: Number = Field("value of the integral at the start", default=0.0)
 
     def computation(self) -> tuple[Part, ...]:
         parts, terms = [*self._outer()], [(self.speed_gain, self.path("speed_error"))]

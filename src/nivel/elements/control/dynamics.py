@@ -97,7 +97,7 @@ def linear_parts(
 class OfOneVariable(OfInput):
     """A linear block with one input and one output, from its transfer function."""
 
-    start: Number = Field(default=0.0, description="value at the start, in a steady state")
+    start: Number = Field("value at the start, in a steady state", default=0.0)
 
     @abstractmethod
     def coefficients(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -121,8 +121,8 @@ class TransferFunction(OfOneVariable):
     """numerator(s) / denominator(s) of the input."""
 
     type: Literal["transfer-function"] = "transfer-function"
-    numerator: Numbers = Field(description="coefficients of falling powers of s")
-    denominator: Numbers = Field(description="coefficients of falling powers of s")
+    numerator: Numbers = Field("coefficients of falling powers of s")
+    denominator: Numbers = Field("coefficients of falling powers of s")
 
     def coefficients(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         return self.numerator, self.denominator
@@ -150,11 +150,9 @@ class LowPass(OfOneVariable):
     """What is slow in the input: 1/(τ s + 1), or ω²/(s² + 2 ζ ω s + ω²) with a damping ratio ζ."""
 
     type: Literal["low-pass"] = "low-pass"
-    time_constant: Maybe[Duration] = Field(default=None, description="τ, of the first order")
-    frequency: Maybe[Frequency] = Field(default=None, description="corner frequency")
-    damping: Maybe[Damping] = Field(
-        default=None, description="damping ratio ζ; it makes the filter one of second order"
-    )
+    time_constant: Maybe[Duration] = Field("τ, of the first order", default=None)
+    frequency: Maybe[Frequency] = Field("corner frequency", default=None)
+    damping: Maybe[Damping] = Field("damping ratio ζ; it makes the filter one of second order", default=None)
 
     def coefficients(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         omega = corner(self.time_constant, self.frequency)
@@ -171,8 +169,8 @@ class HighPass(OfOneVariable):
     """What is fast in the input: s/(s + ω)."""
 
     type: Literal["high-pass"] = "high-pass"
-    time_constant: Maybe[Duration] = Field(default=None, description="1/ω")
-    frequency: Maybe[Frequency] = Field(default=None, description="corner frequency")
+    time_constant: Maybe[Duration] = Field("1/ω", default=None)
+    frequency: Maybe[Frequency] = Field("corner frequency", default=None)
 
     def coefficients(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         return (1.0, 0.0), (1.0, corner(self.time_constant, self.frequency))
@@ -186,8 +184,8 @@ class Notch(OfOneVariable):
     """The input without a narrow band: (s² + ω²)/(s² + 2 ζ ω s + ω²)."""
 
     type: Literal["notch"] = "notch"
-    frequency: Frequency = Field(description="middle of the band")
-    damping: Damping = Field(default=0.5, description="half the width of the band as a share of its middle, ζ")
+    frequency: Frequency = Field("middle of the band")
+    damping: Damping = Field("half the width of the band as a share of its middle, ζ", default=0.5)
 
     def coefficients(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         omega = corner(None, self.frequency)
@@ -198,8 +196,8 @@ class LeadLag(OfOneVariable):
     """(lead · s + 1)/(lag · s + 1)."""
 
     type: Literal["lead-lag"] = "lead-lag"
-    lead: Duration = Field(description="time constant of the numerator")
-    lag: Duration = Field(description="time constant of the denominator")
+    lead: Duration = Field("time constant of the numerator")
+    lag: Duration = Field("time constant of the denominator")
 
     def coefficients(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         return (self.lead, 1.0), (self.lag, 1.0)
@@ -209,7 +207,7 @@ class Derivative(OfOneVariable):
     """The rate of the input, without what is faster than a time constant: s/(τ s + 1)."""
 
     type: Literal["derivative"] = "derivative"
-    time_constant: Duration = Field(description="τ")
+    time_constant: Duration = Field("τ")
 
     def coefficients(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         return (1.0, 0.0), (self.time_constant, 1.0)
@@ -219,16 +217,12 @@ class StateSpace(Block):
     """ẋ = A x + B u, y = C x + D u of several inputs u; `NAME.value` is the first of y, `NAME.y2` the second, …"""
 
     type: Literal["state-space"] = "state-space"
-    inputs: Annotated[ManyFunctions[Input], BeforeValidator(listed)] = Field(
-        description="expressions of `time` and symbols"
-    )
-    A: Matrix = Field(description="rows; one state each")
-    B: Matrix = Field(description="rows; one for each state, with a column for each input")
-    C: Matrix = Field(description="rows; one for each output, with a column for each state")
-    D: Maybe[Matrix] = Field(
-        default=None, description="rows; one for each output, with a column for each input; default zero"
-    )
-    start: Maybe[Numbers] = Field(default=None, description="states at the start; default zero")
+    inputs: Annotated[ManyFunctions[Input], BeforeValidator(listed)] = Field("expressions of `time` and symbols")
+    A: Matrix = Field("rows; one state each")
+    B: Matrix = Field("rows; one for each state, with a column for each input")
+    C: Matrix = Field("rows; one for each output, with a column for each state")
+    D: Maybe[Matrix] = Field("rows; one for each output, with a column for each input; default zero", default=None)
+    start: Maybe[Numbers] = Field("states at the start; default zero", default=None)
 
     @classmethod
     def symbols(cls, given: Any) -> tuple[str, ...]:
@@ -278,8 +272,8 @@ class Integrator(OfInput):
 
     type: Literal["integrator"] = "integrator"
     gain: Number = Field(default=1.0)
-    limits: Maybe[Pair] = Field(default=None, description="lower and upper limit of the value")
-    start: Number = Field(default=0.0, description="value at the start")
+    limits: Maybe[Pair] = Field("lower and upper limit of the value", default=None)
+    start: Number = Field("value at the start", default=0.0)
 
     def computation(self) -> tuple[Part, ...]:
         own, limits = self.path("integral"), self.limits

@@ -23,8 +23,8 @@ class Delay(OfInput):
     delays: ClassVar[bool] = True
 
     type: Literal["delay"] = "delay"
-    time: Duration = Field(description="dead time, also between samples")
-    start: Number = Field(default=0.0, description="value until the first sample comes out")
+    time: Duration = Field("dead time, also between samples")
+    start: Number = Field("value until the first sample comes out", default=0.0)
 
     def computation(self) -> tuple[Part, ...]:
         return self.taken, *self.late(VALUE, "input", self.time + self.latency, self.start, "waiting")
@@ -44,8 +44,8 @@ class MovingAverage(OfInput):
     """The mean of the last samples of the input."""
 
     type: Literal["moving-average"] = "moving-average"
-    samples: int = Field(ge=2, le=MOST_DELAYED, description="how many")
-    start: Number = Field(default=0.0, description="what stands for samples before the start")
+    samples: int = Field("how many", ge=2, le=MOST_DELAYED)
+    start: Number = Field("what stands for samples before the start", default=0.0)
 
     def computation(self) -> tuple[Part, ...]:
         names = [f"waiting_{k + 1}" for k in range(self.samples - 1)]
@@ -66,12 +66,10 @@ class RateLimit(OfInput):
     """The input, followed no faster than a rate."""
 
     type: Literal["rate-limit"] = "rate-limit"
-    rate: Maybe[PositiveNumber] = Field(default=None, description="greatest change per second, up and down")
-    rates: Maybe[Pair] = Field(default=None, description="in place of `rate`: fastest fall (negative) and fastest rise")
-    time_constant: Maybe[Duration] = Field(
-        default=None, description="of a continuous one, with which it follows slow inputs"
-    )
-    start: Maybe[Number] = Field(default=None, description="value before the first sample; default the input then")
+    rate: Maybe[PositiveNumber] = Field("greatest change per second, up and down", default=None)
+    rates: Maybe[Pair] = Field("in place of `rate`: fastest fall (negative) and fastest rise", default=None)
+    time_constant: Maybe[Duration] = Field("of a continuous one, with which it follows slow inputs", default=None)
+    start: Maybe[Number] = Field("value before the first sample; default the input then", default=None)
 
     def computation(self) -> tuple[Part, ...]:
         fall, rise = self.rates or (-(self.rate or 0.0), self.rate or 0.0)
@@ -111,10 +109,10 @@ class Hysteresis(OfInput):
     """On from where the input is greater than `on` until it is less than `off`."""
 
     type: Literal["hysteresis"] = "hysteresis"
-    on: Number = Field(description="input above which it switches on")
-    off: Number = Field(description="input below which it switches off")
-    values: Pair = Field(default=(0.0, 1.0), description="value when off, and when on")
-    start: Literal["off", "on"] = Field(default="off", description="until the first sample says otherwise")
+    on: Number = Field("input above which it switches on")
+    off: Number = Field("input below which it switches off")
+    values: Pair = Field("value when off, and when on", default=(0.0, 1.0))
+    start: Literal["off", "on"] = Field("until the first sample says otherwise", default="off")
 
     def computation(self) -> tuple[Part, ...]:
         low, high = self.values
@@ -142,9 +140,7 @@ class Hold(OfInput):
     quantities = ("value", "input", "condition")
 
     type: Literal["hold"] = "hold"
-    when: Condition = Field(
-        description="comparison such as `time > 3 s`, or a value that is positive: an input, a state"
-    )
+    when: Condition = Field("comparison such as `time > 3 s`, or a value that is positive: an input, a state")
 
     def computation(self) -> tuple[Part, ...]:
         names = {name: self.path(name) for name in ("condition", "input")}

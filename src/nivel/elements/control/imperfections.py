@@ -39,9 +39,9 @@ class Noise(Block):
     """
 
     type: Literal["noise"] = "noise"
-    deviation: PositiveNumber = Field(description="standard deviation σ, the root of the mean square")
-    band: Frequencies = Field(description="lowest and highest frequency")
-    seed: Number = Field(default=1.0, description="whole number; another one gives other noise")
+    deviation: PositiveNumber = Field("standard deviation σ, the root of the mean square")
+    band: Frequencies = Field("lowest and highest frequency")
+    seed: Number = Field("whole number; another one gives other noise", default=1.0)
 
     def computation(self) -> tuple[Part, ...]:
         draw = Random(int(self.seed)).random
@@ -70,8 +70,8 @@ class Quantiser(OfInput):
     """The nearest multiple of a step, within limits: what a converter or an encoder of so many bits gives."""
 
     type: Literal["quantiser"] = "quantiser"
-    step: PositiveNumber = Field(description="between two values")
-    limits: Maybe[Pair] = Field(default=None, description="lowest and highest value")
+    step: PositiveNumber = Field("between two values")
+    limits: Maybe[Pair] = Field("lowest and highest value", default=None)
 
     def computation(self) -> tuple[Part, ...]:
         text, numbers = "step*floor(value/step + 0.5)", {"step": self.step}
@@ -120,11 +120,11 @@ class Bus(Block):
     inputs: Annotated[
         Given[tuple[BusSignal, ...], tuple[BusSignal, ...], Mapping[str, SomeFunction] | Sequence[BusSignal]],
         BeforeValidator(_named_signals),
-    ] = Field(description="name → signal")
-    cycle: Duration = Field(description="time between messages, a whole number of samples")
-    jitter: NotNegativeTime = Field(default=0.0, description="largest random part of the time from sending to arrival")
-    lost: Number = Field(default=0.0, description="share of the messages that never arrive, 0 to 1")
-    seed: Number = Field(default=1.0, description="whole number from 1; another one gives other times")
+    ] = Field("name → signal")
+    cycle: Duration = Field("time between messages, a whole number of samples")
+    jitter: NotNegativeTime = Field("largest random part of the time from sending to arrival", default=0.0)
+    lost: Number = Field("share of the messages that never arrive, 0 to 1", default=0.0)
+    seed: Number = Field("whole number from 1; another one gives other times", default=1.0)
 
     @classmethod
     def symbols(cls, given: Any) -> tuple[str, ...]:

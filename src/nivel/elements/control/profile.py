@@ -32,11 +32,11 @@ class Trapezoid(Block):
     quantities = ("value", "rate")
 
     type: Literal["trapezoid"] = "trapezoid"
-    first: Number = Field(default=0.0, description="value before")
-    last: Number = Field(description="value after")
-    begin: Annotated[OneNumber, Quantity("time")] = Field(default=0.0, description="time at which it starts to move")
-    speed: PositiveNumber = Field(description="greatest speed, per second")
-    acceleration: PositiveNumber = Field(description="of speeding up and slowing down, per second squared")
+    first: Number = Field("value before", default=0.0)
+    last: Number = Field("value after")
+    begin: Annotated[OneNumber, Quantity("time")] = Field("time at which it starts to move", default=0.0)
+    speed: PositiveNumber = Field("greatest speed, per second")
+    acceleration: PositiveNumber = Field("of speeding up and slowing down, per second squared")
 
     @property
     def _times(self) -> tuple[float, float, float]:
@@ -75,7 +75,7 @@ class Waypoints(Block):
 
     type: Literal["waypoints"] = "waypoints"
     times: Times = Field(
-        description="arrival at the first value, departure, arrival at the second, departure, …; or one time for each value"
+        "arrival at the first value, departure, arrival at the second, departure, …; or one time for each value"
     )
     values: Numbers
 

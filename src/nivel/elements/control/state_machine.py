@@ -56,17 +56,15 @@ class MachineState(Record):
     """One state: its value, what else it puts out, and where it leads."""
 
     name: Name
-    value: Maybe[Input] = Field(default=None, description="default its number, from 0")
+    value: Maybe[Input] = Field("default its number, from 0", default=None)
     outputs: Annotated[
         Given[tuple[StateOutput, ...], tuple[StateOutput, ...], Mapping[str, SomeFunction] | Sequence[StateOutput]],
         _named("name", "value"),
-    ] = Field(default=(), description="further values by name, which are zero in states that do not give them")
+    ] = Field("further values by name, which are zero in states that do not give them", default=())
     next: Annotated[
         Given[tuple[Transition, ...], tuple[Transition, ...], Mapping[str, str | Sequence[str]] | Sequence[Transition]],
         _named("to", "when"),
-    ] = Field(
-        default=(), description="state → condition, or list of conditions that all hold; the first that holds is taken"
-    )
+    ] = Field("state → condition, or list of conditions that all hold; the first that holds is taken", default=())
 
 
 class StateMachine(Block):
@@ -79,7 +77,7 @@ class StateMachine(Block):
         Given[tuple[MachineState, ...], tuple[MachineState, ...], Mapping[str, Any] | Sequence[MachineState]],
         _named("name", ""),
     ]
-    start: Name | None = Field(default=None, description="default the first state")
+    start: Name | None = Field("default the first state", default=None)
 
     @classmethod
     def symbols(cls, given: Any) -> tuple[str, ...]:

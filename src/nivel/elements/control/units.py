@@ -64,18 +64,16 @@ class UnitBlock(Block):
 
     what: ClassVar[str]
 
-    file: str = Field(description="name of the file, beside the machine file")
-    inputs: Annotated[Inputs, BeforeValidator(_given_inputs)] = Field(
-        default=(), description="input of the unit → signal"
-    )
+    file: str = Field("name of the file, beside the machine file")
+    inputs: Annotated[Inputs, BeforeValidator(_given_inputs)] = Field("input of the unit → signal", default=())
     outputs: Annotated[Outputs, BeforeValidator(_given_outputs)] = Field(
-        description="outputs of the unit, or names of one's own → outputs of the unit"
+        "outputs of the unit, or names of one's own → outputs of the unit"
     )
     process: Literal["shared", "own"] = Field(
-        default="shared", description="`own`: in a process of its own, so that a crash or a hang ends only the run"
+        "`own`: in a process of its own, so that a crash or a hang ends only the run", default="shared"
     )
     time_limit: Annotated[OneNumber, Quantity("time", positive=True)] = Field(
-        default=10.0, description="computing time that a call may take; of units with `process: own`"
+        "computing time that a call may take; of units with `process: own`", default=10.0
     )
 
     @classmethod
@@ -149,7 +147,7 @@ class FmuBlock(UnitBlock):
 
     type: Literal["fmu"] = "fmu"
     parameters: Annotated[Parameters, BeforeValidator(_given_parameters)] = Field(
-        default=(), description="parameter of the unit → number, in the units of the FMU"
+        "parameter of the unit → number, in the units of the FMU", default=()
     )
 
     @property
@@ -167,8 +165,8 @@ class CBlock(UnitBlock):
     what: ClassVar[str] = "a C function"
 
     type: Literal["c"] = "c"
-    function: str = Field(description="name of the function in the file")
-    state: Numbers = Field(default=(), description="memory of the function: its values at the start")
+    function: str = Field("name of the function in the file")
+    state: Numbers = Field("memory of the function: its values at the start", default=())
 
     @property
     def facts(self) -> CFacts:
@@ -204,12 +202,12 @@ class UserBlock(Block):
 
     type: Literal["python"] = "python"
     law: Annotated[Any, BeforeValidator(_read_law)] = Field(
-        description="function of `time`, symbols (also `NAME.STATE`) and numbers"
+        "function of `time`, symbols (also `NAME.STATE`) and numbers"
     )
     states: Annotated[
         Given[tuple[UserState, ...], tuple[UserState, ...], Mapping[str, float | str] | Sequence[UserState]],
         BeforeValidator(_listed),
-    ] = Field(default=(), description="name → value at the start")
+    ] = Field("name → value at the start", default=())
 
     @classmethod
     def symbols(cls, given: Any) -> tuple[str, ...]:

@@ -35,21 +35,21 @@ class VehicleDriver(Block):
     quantities = ("value", "throttle", "brake", "deviation", "station")
 
     type: Literal["vehicle-driver"] = "vehicle-driver"
-    speed: Input = Field(description="measured speed forwards")
-    target: Input = Field(default=0.0, description="speed to be held; zero or less: the brake is 1")
-    gain: PositiveNumber = Field(default=0.5, description="pedal, up to 1, by missing speed, s/m")
-    steering: Maybe[Input] = Field(default=None, description="angle of the front wheels, in place of a `course`")
+    speed: Input = Field("measured speed forwards")
+    target: Input = Field("speed to be held; zero or less: the brake is 1", default=0.0)
+    gain: PositiveNumber = Field("pedal, up to 1, by missing speed, s/m", default=0.5)
+    steering: Maybe[Input] = Field("angle of the front wheels, in place of a `course`", default=None)
     course: Maybe[Annotated[Matrix, BeforeValidator(list)]] = Field(
-        default=None, description="points `[x, y]` from the start on, in m; a cubic spline goes through them"
+        "points `[x, y]` from the start on, in m; a cubic spline goes through them", default=None
     )
-    x: Maybe[Input] = Field(default=None, description="with a `course`: measured place")
-    y: Maybe[Input] = Field(default=None, description="with a `course`: measured place")
-    heading: Maybe[Input] = Field(default=None, description="with a `course`: measured yaw angle")
-    wheelbase: Maybe[PositiveNumber] = Field(default=None, description="with a `course`: distance of the axles")
-    understeer: Number = Field(default=0.0, description="steering angle by lateral acceleration, rad s²/m")
-    preview: Duration = Field(default=0.8, description="time by which the aim is ahead")
-    lag: NotNegativeTime = Field(default=0.0, description="time constant of the steering along a course")
-    limit: PositiveNumber = Field(default=0.6, description="greatest steering angle, rad")
+    x: Maybe[Input] = Field("with a `course`: measured place", default=None)
+    y: Maybe[Input] = Field("with a `course`: measured place", default=None)
+    heading: Maybe[Input] = Field("with a `course`: measured yaw angle", default=None)
+    wheelbase: Maybe[PositiveNumber] = Field("with a `course`: distance of the axles", default=None)
+    understeer: Number = Field("steering angle by lateral acceleration, rad s²/m", default=0.0)
+    preview: Duration = Field("time by which the aim is ahead", default=0.8)
+    lag: NotNegativeTime = Field("time constant of the steering along a course", default=0.0)
+    limit: PositiveNumber = Field("greatest steering angle, rad", default=0.6)
 
     def computation(self) -> tuple[Part, ...]:
         parts = [self.present("own_speed", self.speed, key="speed"), self.present("wished", self.target, key="target")]

@@ -68,11 +68,11 @@ class Stop(ForceElement):
 
     type: Literal["stop"] = "stop"
     coordinate: CoordinateReference
-    lower: Maybe[CoordinateValue] = Field(default=None, description="end of the way on the negative side")
-    upper: Maybe[CoordinateValue] = Field(default=None, description="end of the way on the positive side")
-    exponent: Exponent = Field(default=1.0, description="of the depth")
+    lower: Maybe[CoordinateValue] = Field("end of the way on the negative side", default=None)
+    upper: Maybe[CoordinateValue] = Field("end of the way on the positive side", default=None)
+    exponent: Exponent = Field("of the depth", default=1.0)
     stiffness: PowerStiffness
-    restitution: Restitution = Field(description="speed after the impact by the speed before it; 1 loses no energy")
+    restitution: Restitution = Field("speed after the impact by the speed before it; 1 loses no energy")
 
     def problems(self) -> Iterator[Problem]:
         if self.lower is None and self.upper is None:
@@ -91,10 +91,10 @@ class Motor(ForceElement):
 
     type: Literal["motor"] = "motor"
     coordinate: CoordinateReference
-    effort: Maybe[CoordinateEffortFunction] = Field(default=None, description="force or torque")
-    speed: Maybe[CoordinateSpeed] = Field(default=None, description="held with the effort gain · (speed - rate)")
-    gain: Maybe[PositiveGain] = Field(default=None, description="effort per missing speed")
-    limit: Maybe[PositiveEffort] = Field(default=None, description="greatest magnitude of the effort")
+    effort: Maybe[CoordinateEffortFunction] = Field("force or torque", default=None)
+    speed: Maybe[CoordinateSpeed] = Field("held with the effort gain · (speed - rate)", default=None)
+    gain: Maybe[PositiveGain] = Field("effort per missing speed", default=None)
+    limit: Maybe[PositiveEffort] = Field("greatest magnitude of the effort", default=None)
 
     def problems(self) -> Iterator[Problem]:
         if self.effort is None and self.speed is None:
@@ -117,11 +117,11 @@ class Servo(ForceElement):
 
     type: Literal["servo"] = "servo"
     coordinate: CoordinateReference
-    target: CoordinatePosition = Field(description="length or angle that the coordinate shall have")
-    stiffness: CoordinateStiffness = Field(description="effort per error (proportional gain)")
-    damping: CoordinateDamping = Field(default=0.0, description="effort per rate of the error (derivative gain)")
-    integral: CoordinateIntegral = Field(default=0.0, description="effort per error and second (integral gain)")
-    limit: Maybe[PositiveEffort] = Field(default=None, description="greatest magnitude of the effort")
+    target: CoordinatePosition = Field("length or angle that the coordinate shall have")
+    stiffness: CoordinateStiffness = Field("effort per error (proportional gain)")
+    damping: CoordinateDamping = Field("effort per rate of the error (derivative gain)", default=0.0)
+    integral: CoordinateIntegral = Field("effort per error and second (integral gain)", default=0.0)
+    limit: Maybe[PositiveEffort] = Field("greatest magnitude of the effort", default=None)
 
 
 class StopRow(Row):

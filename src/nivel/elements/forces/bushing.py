@@ -49,10 +49,8 @@ class Bushing(Between):
     turns: ClassVar[bool] = True
 
     type: Literal["bushing"] = "bushing"
-    stiffness: Stiffness = Field(
-        description="three in N/m, three in N*m/rad, along and about x, y, z of the first marker; or 6×6"
-    )
-    damping: Damping = Field(default=(0.0,) * 6, description="three in N*s/m, three in N*m*s/rad; or 6×6")
+    stiffness: Stiffness = Field("three in N/m, three in N*m/rad, along and about x, y, z of the first marker; or 6×6")
+    damping: Damping = Field("three in N*s/m, three in N*m*s/rad; or 6×6", default=(0.0,) * 6)
 
     @property
     def stiffness_matrix(self) -> Array:

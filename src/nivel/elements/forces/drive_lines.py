@@ -59,9 +59,9 @@ class Brake(ForceElement):
 
     type: Literal["brake"] = "brake"
     coordinate: CoordinateReference
-    capacity: CoordinateEffortFunction = Field(description=CAPACITY)
-    static_ratio: PositiveNumber = Field(default=1.0, description=STATIC_RATIO)
-    stribeck_rate: NotNegativeRate = Field(default=0.0, description=STRIBECK_RATE)
+    capacity: CoordinateEffortFunction = Field(CAPACITY)
+    static_ratio: PositiveNumber = Field(STATIC_RATIO, default=1.0)
+    stribeck_rate: NotNegativeRate = Field(STRIBECK_RATE, default=0.0)
 
     def problems(self) -> Iterator[Problem]:
         yield from problems_of_capacity(self.capacity)
@@ -78,9 +78,9 @@ class Clutch(DriveLine):
     inequalities: ClassVar[Inequalities] = LOCKS
 
     type: Literal["clutch"] = "clutch"
-    capacity: CoordinateEffortFunction = Field(description=CAPACITY)
-    static_ratio: PositiveNumber = Field(default=1.0, description=STATIC_RATIO)
-    stribeck_rate: NotNegativeRate = Field(default=0.0, description=STRIBECK_RATE)
+    capacity: CoordinateEffortFunction = Field(CAPACITY)
+    static_ratio: PositiveNumber = Field(STATIC_RATIO, default=1.0)
+    stribeck_rate: NotNegativeRate = Field(STRIBECK_RATE, default=0.0)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -136,14 +136,13 @@ class Freewheel(DriveLine):
 
     type: Literal["freewheel"] = "freewheel"
     against: Maybe[CoordinateReference] = Field(  # type: ignore[assignment]
-        default=None,
-        description="coordinate that takes the first one along; without it: a backstop, it never goes backwards",
+        "coordinate that takes the first one along; without it: a backstop, it never goes backwards", default=None
     )
-    capacity: Maybe[PositiveEffort] = Field(default=None, description="effort beyond which it slips", absent="none")
+    capacity: Maybe[PositiveEffort] = Field("effort beyond which it slips", default=None, absent="none")
     stiffness: Maybe[PositiveCoordinateStiffness] = Field(
-        default=None, description="of what takes the coordinate along", absent="rigid"
+        "of what takes the coordinate along", default=None, absent="rigid"
     )
-    damping: CoordinateDamping = Field(default=0.0, description="beside the stiffness")
+    damping: CoordinateDamping = Field("beside the stiffness", default=0.0)
 
     @property
     def is_rigid(self) -> bool:
@@ -185,13 +184,11 @@ class TransmissionLoss(ForceElement):
     )
 
     type: Literal["transmission-loss"] = "transmission-loss"
-    coupling: Name = Field(description="coupling, or joint of type screw")
-    coordinate: CoordinateReference = Field(description="that drives, one of the coupling's or the joint's")
-    efficiency: Share = Field(description="power out by power in, where the coordinate drives")
+    coupling: Name = Field("coupling, or joint of type screw")
+    coordinate: CoordinateReference = Field("that drives, one of the coupling's or the joint's")
+    efficiency: Share = Field("power out by power in, where the coordinate drives")
     backward_efficiency: Maybe[Efficiency] = Field(
-        default=None,
-        description="the same where the coordinate is driven; zero or less: self-locking",
-        absent="2 - 1/efficiency",
+        "the same where the coordinate is driven; zero or less: self-locking", default=None, absent="2 - 1/efficiency"
     )
 
     @property

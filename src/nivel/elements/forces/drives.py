@@ -60,8 +60,8 @@ Speeds = Annotated[ManyNumbers[AngularVelocity], BeforeValidator(listed)]
 class TorqueSpeed(Checked):
     """The greatest torque of a motor over the magnitude of its speed; beyond the table its end values hold."""
 
-    speeds: Speeds = Field(description="of the motor's shaft, from 0 on, increasing")
-    torques: Torques = Field(description="greatest torque there, not negative")
+    speeds: Speeds = Field("of the motor's shaft, from 0 on, increasing")
+    torques: Torques = Field("greatest torque there, not negative")
 
     def problems(self) -> Iterator[Problem]:
         if len(self.speeds) != len(self.torques) or len(self.speeds) < 2:
@@ -88,21 +88,15 @@ class Drive(ForceElement):
     )
 
     coordinate: CoordinateReference
-    gear: Gear = Field(default=1.0, description="turns of the motor per turn of an angle; of a length, rad/m")
-    resistance: Resistance = Field(default=0.0, description="of the winding")
-    friction_torque: NotNegativeTorque = Field(default=0.0, description="dry friction at the shaft")
-    transition_speed: PositiveTurning = Field(
-        default=1.0, description="of the shaft, over which the dry friction changes its sign"
-    )
-    viscous: TorsionalDamping = Field(default=0.0, description="friction per speed of the shaft")
-    rotor_inertia: RotorInertia = Field(
-        default=0.0, description="of what turns with the shaft; needs a `gear_stiffness`"
-    )
-    gear_stiffness: CoordinateStiffness = Field(default=0.0, description="of the gear, at the coordinate; 0: rigid")
-    gear_damping: CoordinateDamping = Field(default=0.0, description="of the gear, at the coordinate")
-    backlash: NotNegativeValue = Field(
-        default=0.0, description="play of an elastic gear, at the coordinate, from flank to flank"
-    )
+    gear: Gear = Field("turns of the motor per turn of an angle; of a length, rad/m", default=1.0)
+    resistance: Resistance = Field("of the winding", default=0.0)
+    friction_torque: NotNegativeTorque = Field("dry friction at the shaft", default=0.0)
+    transition_speed: PositiveTurning = Field("of the shaft, over which the dry friction changes its sign", default=1.0)
+    viscous: TorsionalDamping = Field("friction per speed of the shaft", default=0.0)
+    rotor_inertia: RotorInertia = Field("of what turns with the shaft; needs a `gear_stiffness`", default=0.0)
+    gear_stiffness: CoordinateStiffness = Field("of the gear, at the coordinate; 0: rigid", default=0.0)
+    gear_damping: CoordinateDamping = Field("of the gear, at the coordinate", default=0.0)
+    backlash: NotNegativeValue = Field("play of an elastic gear, at the coordinate, from flank to flank", default=0.0)
 
     def problems(self) -> Iterator[Problem]:
         if (self.rotor_inertia > 0.0) != (self.gear_stiffness > 0.0):
@@ -117,11 +111,11 @@ class DcMotor(Drive):
     """A winding at a voltage: L di/dt = u - R i - K ω, torque K i."""
 
     type: Literal["dc-motor"] = "dc-motor"
-    voltage: Voltage = Field(description="at the winding")
-    torque_constant: TorqueConstant = Field(description="K, N m/A, which is V s/rad too")
-    inductance: Inductance = Field(default=0.0, description="L; zero: the current follows at once")
-    voltage_limit: Maybe[PositiveVoltage] = Field(default=None, description="greatest magnitude of the voltage")
-    current_limit: Maybe[PositiveCurrent] = Field(default=None, description="greatest magnitude of the current")
+    voltage: Voltage = Field("at the winding")
+    torque_constant: TorqueConstant = Field("K, N m/A, which is V s/rad too")
+    inductance: Inductance = Field("L; zero: the current follows at once", default=0.0)
+    voltage_limit: Maybe[PositiveVoltage] = Field("greatest magnitude of the voltage", default=None)
+    current_limit: Maybe[PositiveCurrent] = Field("greatest magnitude of the current", default=None)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -133,15 +127,11 @@ class ServoMotor(Drive):
     """A motor with its own current loop: its torque follows the command with a time constant, within its limits."""
 
     type: Literal["servo-motor"] = "servo-motor"
-    effort: CoordinateEffortFunction = Field(description="command, as an effort on the coordinate, without losses")
-    time_constant: NotNegativeTime = Field(default=1e-3, description="of the current loop; 0: at once")
-    torque_constant: Maybe[TorqueConstant] = Field(default=None, description="N m/A, for the current and its losses")
-    torque_limit: Maybe[PositiveTorque] = Field(
-        default=None, description="greatest magnitude of the torque at the shaft"
-    )
-    torque_speed: Maybe[OneRecord[TorqueSpeed]] = Field(
-        default=None, description="the same over the speed of the shaft"
-    )
+    effort: CoordinateEffortFunction = Field("command, as an effort on the coordinate, without losses")
+    time_constant: NotNegativeTime = Field("of the current loop; 0: at once", default=1e-3)
+    torque_constant: Maybe[TorqueConstant] = Field("N m/A, for the current and its losses", default=None)
+    torque_limit: Maybe[PositiveTorque] = Field("greatest magnitude of the torque at the shaft", default=None)
+    torque_speed: Maybe[OneRecord[TorqueSpeed]] = Field("the same over the speed of the shaft", default=None)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

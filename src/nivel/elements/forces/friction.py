@@ -59,26 +59,25 @@ class Friction(ForceElement):
     type: Literal["friction"] = "friction"
     coordinate: CoordinateReference
     model: Literal["coulomb", "stiction", "lugre"]
-    coefficient: PositiveNumber = Field(description="of kinetic friction")
-    static_coefficient: Maybe[PositiveNumber] = Field(default=None, description="default `coefficient`")
+    coefficient: PositiveNumber = Field("of kinetic friction")
+    static_coefficient: Maybe[PositiveNumber] = Field("default `coefficient`", default=None)
     stribeck_speed: Maybe[NotNegativeSpeed] = Field(
-        default=None,
-        description="at which static friction has mostly become kinetic; 0, with stiction: as soon as it slides",
+        "at which static friction has mostly become kinetic; 0, with stiction: as soon as it slides", default=None
     )
     transition_speed: Maybe[PositiveSpeed] = Field(
-        default=None, description="of the coulomb model: friction goes as tanh(speed / transition_speed)"
+        "of the coulomb model: friction goes as tanh(speed / transition_speed)", default=None
     )
-    viscous: CoordinateDamping = Field(default=0.0, description="effort per rate of the coordinate")
-    bristle_stiffness: Maybe[StiffnessPerLoad] = Field(default=None, description="of the lugre model, per normal load")
-    bristle_damping: DampingPerLoad = Field(default=0.0, description="of the lugre model, per normal load")
-    normal_load: Maybe[PositiveForce] = Field(default=None, description="in place of the joint's own reaction")
-    preload: NotNegativeForce = Field(default=0.0, description="added to the load by the reaction")
+    viscous: CoordinateDamping = Field("effort per rate of the coordinate", default=0.0)
+    bristle_stiffness: Maybe[StiffnessPerLoad] = Field("of the lugre model, per normal load", default=None)
+    bristle_damping: DampingPerLoad = Field("of the lugre model, per normal load", default=0.0)
+    normal_load: Maybe[PositiveForce] = Field("in place of the joint's own reaction", default=None)
+    preload: NotNegativeForce = Field("added to the load by the reaction", default=0.0)
     radius: Maybe[PositiveLength] = Field(
-        default=None, description="of the pin; of a displacement, arm on which a torque about the axis loads it"
+        "of the pin; of a displacement, arm on which a torque about the axis loads it", default=None
     )
-    collar_radius: NotNegativeLength = Field(default=0.0, description="at which the axial reaction rubs, of an angle")
+    collar_radius: NotNegativeLength = Field("at which the axial reaction rubs, of an angle", default=0.0)
     bearing_length: Maybe[PositiveLength] = Field(
-        default=None, description="over which a bending moment M loads the bearing by 2 M / bearing_length"
+        "over which a bending moment M loads the bearing by 2 M / bearing_length", default=None
     )
 
     @property

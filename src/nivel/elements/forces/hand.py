@@ -43,13 +43,13 @@ class Hand(ForceElement):
     stiff: ClassVar[bool] = False
 
     type: Literal["hand"] = "hand"
-    pull: Varied = Field(description="1 while it holds, 0 while it does not, and between")
+    pull: Varied = Field("1 while it holds, 0 while it does not, and between")
     body_number: Varied = Field(
-        description="which body: its number in the order of the file, from 0; none where there is no such one"
+        "which body: its number in the order of the file, from 0; none where there is no such one"
     )
-    point: Annotated[ThreeFunctions[Place], BeforeValidator(listed)] = Field(description="of the body, in its frame")
-    towards: Annotated[ThreeFunctions[Place], BeforeValidator(listed)] = Field(description="in space, global axes")
-    frequency: Frequency = Field(default=1.5, description="of the chosen body alone")
+    point: Annotated[ThreeFunctions[Place], BeforeValidator(listed)] = Field("of the body, in its frame")
+    towards: Annotated[ThreeFunctions[Place], BeforeValidator(listed)] = Field("in space, global axes")
+    frequency: Frequency = Field("of the chosen body alone", default=1.5)
     damping_ratio: NotNegativeNumber = Field(default=0.7)
 
     def problems(self) -> Iterator[Problem]:

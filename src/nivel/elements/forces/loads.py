@@ -25,7 +25,7 @@ from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.time_function import ForceComponent, SpringForce, ThreeFunctions, TorqueComponent
 from nivel.machine.units.quantity import Position, listed
 
-Axes = Annotated[Literal["global", "body"], Field(description="axes of the vector: global, or turning with the body")]
+Axes = Annotated[Literal["global", "body"], Field("axes of the vector: global, or turning with the body")]
 
 
 class PointForce(ForceElement):
@@ -36,8 +36,8 @@ class PointForce(ForceElement):
 
     type: Literal["force"] = "force"
     body: BodyName | None = None
-    position: Maybe[Position] = Field(default=None, description="of the point, in the body frame; default the origin")
-    marker: Name | None = Field(default=None, description="the point, in place of `body` and `position`")
+    position: Maybe[Position] = Field("of the point, in the body frame; default the origin", default=None)
+    marker: Name | None = Field("the point, in place of `body` and `position`", default=None)
     vector: Annotated[ThreeFunctions[ForceComponent], BeforeValidator(listed)]
     axes: Axes = "global"
 
@@ -79,12 +79,10 @@ class PairForce(Between):
     outputs: ClassVar[tuple[str, ...]] = (*of_force(), *of_value("length"))
 
     type: Literal["pair-force"] = "pair-force"
-    magnitude: Maybe[SpringForce] = Field(
-        default=None, description="along the line, pushing apart; may use `length` and `rate`"
-    )
-    vector: Maybe[PairVector] = Field(default=None, description="on the second point, opposite on the first")
+    magnitude: Maybe[SpringForce] = Field("along the line, pushing apart; may use `length` and `rate`", default=None)
+    vector: Maybe[PairVector] = Field("on the second point, opposite on the first", default=None)
     axes: Literal["global", "first"] = Field(
-        default="global", description="axes of the vector: global, or those of the first marker"
+        "axes of the vector: global, or those of the first marker", default="global"
     )
 
     def problems(self) -> Iterator[Problem]:

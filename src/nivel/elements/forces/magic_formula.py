@@ -40,10 +40,10 @@ LEAST_WEIGHT = 0.05  # of combined slip in the rate at which a force follows; th
 class MagicFormula(Checked):
     """The numbers of a `.tir` file, in SI units."""
 
-    version: Literal["5.2", "6.1"] = Field(description="of the formula")
-    side: Literal["left", "right"] = Field(default="left", description="of the vehicle, for which the numbers are")
+    version: Literal["5.2", "6.1"] = Field("of the formula")
+    side: Literal["left", "right"] = Field("of the vehicle, for which the numbers are", default="left")
     coefficients: Given[dict[str, float], dict[str, float], Mapping[str, float]] = Field(
-        description="by the names of the file, in SI units; others than those of the formula are kept and not used"
+        "by the names of the file, in SI units; others than those of the formula are kept and not used"
     )
 
     def problems(self) -> Iterator[Problem]:

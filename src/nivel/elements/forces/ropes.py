@@ -62,36 +62,36 @@ class Rope(BetweenMany):
     )
 
     type: Literal["rope"] = "rope"
-    stiffness: Stiffness = Field(description="of the whole rope")
-    damping: Damping = Field(default=0.0, description="of the whole rope")
+    stiffness: Stiffness = Field("of the whole rope")
+    damping: Damping = Field("of the whole rope", default=0.0)
     length: Maybe[PositiveLength] = Field(
-        default=None, description="unstressed, at the start", absent="the way as placed, of a rope with `radii`"
+        "unstressed, at the start", default=None, absent="the way as placed, of a rope with `radii`"
     )
     radii: Annotated[Maybe[ManyNumbers[Length]], BeforeValidator(listed)] = Field(
+        "of the wheels at the points, 0 for none: positive where the rope runs right-handed about `axis`, else negative",
         default=None,
-        description="of the wheels at the points, 0 for none: positive where the rope runs right-handed about `axis`, else negative",
     )
     axis: Maybe[Direction] = Field(
+        "of all wheels; global, as placed; with `markers` by default the z axis of the first one that has a radius",
         default=None,
-        description="of all wheels; global, as placed; with `markers` by default the z axis of the first one that has a radius",
     )
     wound: Annotated[Maybe[ManyNumbers[NotNegativeNumber]], BeforeValidator(listed)] = Field(
-        default=None,
-        description="turns on the drums at the first and the last end, as placed; the rope is fixed behind them. Or for each point: "
+        "turns on the drums at the first and the last end, as placed; the rope is fixed behind them. Or for each point: "
         "whole turns on a wheel between the ends come on top of the arc",
+        default=None,
     )
     friction: Maybe[PositiveNumber] = Field(
+        "coefficient of friction on the wheels between the ends, on which the rope sticks or slips",
         default=None,
-        description="coefficient of friction on the wheels between the ends, on which the rope sticks or slips",
         absent="none, of wheels that turn freely on the rope",
     )
     mass_per_length: Maybe[MassPerLength] = Field(
-        default=None, description="of a rope around wheels without friction", absent="no mass"
+        "of a rope around wheels without friction", default=None, absent="no mass"
     )
     start_speed: Velocity = Field(
-        default=0.0, description="of the mass at the start, along the rope from its first end to its last"
+        "of the mass at the start, along the rope from its first end to its last", default=0.0
     )
-    speed: Maybe[Speed] = Field(default=None, description="by which a winch pays rope out, negative: hauls it in")
+    speed: Maybe[Speed] = Field("by which a winch pays rope out, negative: hauls it in", default=None)
 
     def problems(self) -> Iterator[Problem]:
         if self.length is None and self.radii is None:

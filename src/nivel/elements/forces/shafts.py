@@ -47,10 +47,8 @@ class DriveLine(ForceElement):
     """What acts on the difference coordinate - ratio · against: an effort on the coordinate, and -ratio times it on the other one."""
 
     coordinate: CoordinateReference
-    against: CoordinateReference = Field(description="the other joint coordinate")
-    ratio: Scalar = Field(
-        default=1.0, description="rate of `coordinate` per rate of `against` at which nothing slips or twists"
-    )
+    against: CoordinateReference = Field("the other joint coordinate")
+    ratio: Scalar = Field("rate of `coordinate` per rate of `against` at which nothing slips or twists", default=1.0)
 
     def problems(self) -> Iterator[Problem]:
         if self.ratio == 0.0:
@@ -79,8 +77,8 @@ class Shaft(DriveLine):
     type: Literal["shaft"] = "shaft"
     stiffness: PositiveCoordinateStiffness
     damping: CoordinateDamping = Field(default=0.0)
-    free_value: CoordinateValue = Field(default=0.0, description="of the difference, where the effort is zero")
-    backlash: NotNegativeValue = Field(default=0.0, description="play, from flank to flank")
+    free_value: CoordinateValue = Field("of the difference, where the effort is zero", default=0.0)
+    backlash: NotNegativeValue = Field("play, from flank to flank", default=0.0)
 
 
 PositiveStiffness = Annotated[OneNumber, Quantity("stiffness", positive=True)]
@@ -120,18 +118,18 @@ class BeltDrive(ForceElement):
     )
 
     type: Literal["belt-drive"] = "belt-drive"
-    coordinate: CoordinateReference = Field(description="angle of the first pulley")
-    against: CoordinateReference = Field(description="angle of the second one")
-    radii: TwoNumbers[PositiveLength] = Field(description="of the pulleys, or of the pitch circles")
-    crossed: Truth = Field(default=False, description="the belt crosses itself: the pulleys turn opposite ways")
-    stiffness: PositiveStiffness = Field(description="of each strand")
-    damping: Damping = Field(default=0.0, description="of each strand")
-    pretension: NotNegativeForce = Field(default=0.0, description="of each strand, without torque")
-    slack: NotNegativeLength = Field(default=0.0, description="of each strand, as of a chain that sags")
+    coordinate: CoordinateReference = Field("angle of the first pulley")
+    against: CoordinateReference = Field("angle of the second one")
+    radii: TwoNumbers[PositiveLength] = Field("of the pulleys, or of the pitch circles")
+    crossed: Truth = Field("the belt crosses itself: the pulleys turn opposite ways", default=False)
+    stiffness: PositiveStiffness = Field("of each strand")
+    damping: Damping = Field("of each strand", default=0.0)
+    pretension: NotNegativeForce = Field("of each strand, without torque", default=0.0)
+    slack: NotNegativeLength = Field("of each strand, as of a chain that sags", default=0.0)
     friction: Maybe[PositiveNumber] = Field(
-        default=None, description="coefficient of friction on the pulleys", absent="none: teeth, it does not slip"
+        "coefficient of friction on the pulleys", default=None, absent="none: teeth, it does not slip"
     )
-    wrap: PositiveAngle = Field(default=pi, description="angle over which it touches the pulley on which it slips")
+    wrap: PositiveAngle = Field("angle over which it touches the pulley on which it slips", default=pi)
 
     @property
     def rise(self) -> float:

@@ -43,12 +43,12 @@ class SpringNode(BetweenMany):
     where = "the springs are held"
 
     type: Literal["spring-node"] = "spring-node"
-    node: Position = Field(description="where about it is at the start: global; it is found from there")
-    stiffness: Annotated[ManyNumbers[PositiveStiffness], BeforeValidator(listed)] = Field(description="of each spring")
+    node: Position = Field("where about it is at the start: global; it is found from there")
+    stiffness: Annotated[ManyNumbers[PositiveStiffness], BeforeValidator(listed)] = Field("of each spring")
     free_length: Annotated[ManyNumbers[NotNegativeLength], BeforeValidator(listed)] = Field(
-        description="of each spring, at which it has no force"
+        "of each spring, at which it has no force"
     )
-    only_pulls: Truth = Field(default=False, description="the springs never push, as ropes")
+    only_pulls: Truth = Field("the springs never push, as ropes", default=False)
 
     def problems(self) -> Iterator[Problem]:
         count = len(self.stiffness)

@@ -46,15 +46,15 @@ class SpringSeries(Between):
 
     type: Literal["spring-series"] = "spring-series"
     stiffness: Annotated[ManyNumbers[Stiffness], BeforeValidator(listed)] = Field(
-        description="of each part, from the first point to the second; 0: a damper alone"
+        "of each part, from the first point to the second; 0: a damper alone"
     )
     damping: Annotated[Maybe[ManyNumbers[Damping]], BeforeValidator(listed)] = Field(
-        default=None, description="of each part", absent="none"
+        "of each part", default=None, absent="none"
     )
     free_length: Annotated[ManyNumbers[NotNegativeLength], BeforeValidator(listed)] = Field(
-        description="of each part, at which its spring has no force; of a part with a damper also its length at the start"
+        "of each part, at which its spring has no force; of a part with a damper also its length at the start"
     )
-    only_pulls: Truth = Field(default=False, description="it is slack where it would push, as with a rope in it")
+    only_pulls: Truth = Field("it is slack where it would push, as with a rope in it", default=False)
 
     @property
     def dampings(self) -> tuple[float, ...]:

@@ -66,8 +66,8 @@ class ForceTable(Characteristic):
 
     column = "forces"
 
-    deflections: of.Lengths = Field(description="length - free_length, increasing")
-    forces: of.Forces = Field(description="of the spring, tension positive")
+    deflections: of.Lengths = Field("length - free_length, increasing")
+    forces: of.Forces = Field("of the spring, tension positive")
 
 
 class TorqueTable(Characteristic):
@@ -75,8 +75,8 @@ class TorqueTable(Characteristic):
 
     column = "torques"
 
-    deflections: of.Angles = Field(description="angle - free_angle, increasing")
-    torques: of.Torques = Field(description="with which the spring resists")
+    deflections: of.Angles = Field("angle - free_angle, increasing")
+    torques: of.Torques = Field("with which the spring resists")
 
 
 class EffortTable(Characteristic):
@@ -85,10 +85,10 @@ class EffortTable(Characteristic):
     column = "efforts"
 
     deflections: Annotated[ManyNumbers[of.CoordinateValue], BeforeValidator(listed)] = Field(
-        description="coordinate - free_value, increasing"
+        "coordinate - free_value, increasing"
     )
     efforts: Annotated[ManyNumbers[of.CoordinateEffort], BeforeValidator(listed)] = Field(
-        description="with which the spring resists"
+        "with which the spring resists"
     )
 
 
@@ -103,10 +103,10 @@ class SpringDamper(Between):
     type: Literal["spring-damper"] = "spring-damper"
     stiffness: Maybe[of.Stiffness] = Field(default=None)
     damping: of.Damping = Field(default=0.0)
-    free_length: Maybe[of.NotNegativeLength] = Field(default=None, description="at which the spring has no force")
-    preload: of.ForceValue = Field(default=0.0, description="added to the tension")
-    table: Maybe[OneRecord[ForceTable]] = Field(default=None, description="of the spring, in place of `stiffness`")
-    law: Maybe[SpringForce] = Field(default=None, description="the tension; may use `length` and `rate`")
+    free_length: Maybe[of.NotNegativeLength] = Field("at which the spring has no force", default=None)
+    preload: of.ForceValue = Field("added to the tension", default=0.0)
+    table: Maybe[OneRecord[ForceTable]] = Field("of the spring, in place of `stiffness`", default=None)
+    law: Maybe[SpringForce] = Field("the tension; may use `length` and `rate`", default=None)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -130,10 +130,10 @@ class TorsionalSpringDamper(BetweenMarkers):
     type: Literal["torsional-spring-damper"] = "torsional-spring-damper"
     stiffness: Maybe[of.TorsionalStiffness] = Field(default=None)
     damping: of.TorsionalDamping = Field(default=0.0)
-    free_angle: Angle = Field(default=0.0, description="at which the spring has no torque")
-    preload: of.TorqueValue = Field(default=0.0, description="added to the torque that resists")
-    table: Maybe[OneRecord[TorqueTable]] = Field(default=None, description="of the spring, in place of `stiffness`")
-    law: Maybe[SpringTorque] = Field(default=None, description="the torque that resists; may use `angle` and `rate`")
+    free_angle: Angle = Field("at which the spring has no torque", default=0.0)
+    preload: of.TorqueValue = Field("added to the torque that resists", default=0.0)
+    table: Maybe[OneRecord[TorqueTable]] = Field("of the spring, in place of `stiffness`", default=None)
+    law: Maybe[SpringTorque] = Field("the torque that resists; may use `angle` and `rate`", default=None)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -152,12 +152,12 @@ class JointSpringDamper(ForceElement):
     coordinate: CoordinateReference
     stiffness: Maybe[of.CoordinateStiffness] = Field(default=None)
     damping: of.CoordinateDamping = Field(default=0.0)
-    free_value: of.CoordinateValue = Field(default=0.0, description="of the coordinate where the spring has no effort")
-    preload: of.CoordinateEffort = Field(default=0.0, description="added to the effort that resists")
+    free_value: of.CoordinateValue = Field("of the coordinate where the spring has no effort", default=0.0)
+    preload: of.CoordinateEffort = Field("added to the effort that resists", default=0.0)
     table: Annotated[Maybe[OneRecord[EffortTable]], BeforeValidator(_check_columns)] = Field(
-        default=None, description="of the spring, in place of `stiffness`"
+        "of the spring, in place of `stiffness`", default=None
     )
-    law: Maybe[CoordinateLaw] = Field(default=None, description="the effort that resists; may use `value` and `rate`")
+    law: Maybe[CoordinateLaw] = Field("the effort that resists; may use `value` and `rate`", default=None)
 
     def problems(self) -> Iterator[Problem]:
         yield from problems_of_spring(self, "free_value")
@@ -174,14 +174,12 @@ class ThreeAxisSpring(Between):
     )
 
     type: Literal["three-axis-spring"] = "three-axis-spring"
-    stiffness: ThreeStiffnesses = Field(default=(0.0, 0.0, 0.0), description="along global x, y, z")
-    damping: ThreeDampings = Field(default=(0.0, 0.0, 0.0), description="along global x, y, z")
+    stiffness: ThreeStiffnesses = Field("along global x, y, z", default=(0.0, 0.0, 0.0))
+    damping: ThreeDampings = Field("along global x, y, z", default=(0.0, 0.0, 0.0))
     free_displacement: Position = Field(
-        default=(0.0, 0.0, 0.0), description="of the second point from the first, at which the springs have no force"
+        "of the second point from the first, at which the springs have no force", default=(0.0, 0.0, 0.0)
     )
-    preload: ThreeForces = Field(
-        default=(0.0, 0.0, 0.0), description="added to the forces that draw the points together"
-    )
+    preload: ThreeForces = Field("added to the forces that draw the points together", default=(0.0, 0.0, 0.0))
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

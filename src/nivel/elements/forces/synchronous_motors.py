@@ -58,13 +58,13 @@ Shares = Annotated[ManyNumbers[Annotated[OneNumber, Quantity("number")]], Before
 class Battery(Checked):
     """A battery with an inner resistance, and the capacitor of the dc link that it feeds."""
 
-    charges: Shares = Field(description="states of charge, from 0 to 1, increasing")
-    voltages: Voltages = Field(description="without load, at each of `charges`")
-    capacity: Annotated[OneNumber, Quantity("charge", positive=True)] = Field(description="charge of a full one")
-    resistance: Annotated[OneNumber, Quantity("resistance", positive=True)] = Field(description="inner one")
-    start: Share = Field(default=0.8, description="state of charge at the start")
+    charges: Shares = Field("states of charge, from 0 to 1, increasing")
+    voltages: Voltages = Field("without load, at each of `charges`")
+    capacity: Annotated[OneNumber, Quantity("charge", positive=True)] = Field("charge of a full one")
+    resistance: Annotated[OneNumber, Quantity("resistance", positive=True)] = Field("inner one")
+    start: Share = Field("state of charge at the start", default=0.8)
     dc_link: Annotated[OneNumber, Quantity("capacitance", positive=True)] = Field(
-        default=1e-3, description="capacitance of the dc link"
+        "capacitance of the dc link", default=1e-3
     )
 
     def problems(self) -> Iterator[Problem]:
@@ -87,30 +87,30 @@ class SynchronousMotor(Drive):
     )
 
     type: Literal["synchronous-motor"] = "synchronous-motor"
-    effort: CoordinateEffortFunction = Field(description="command, as an effort on the coordinate, without losses")
-    torque_constant: TorqueConstant = Field(description="3/2 p ψ: torque per amplitude of the current i_q")
-    pole_pairs: Whole = Field(default=4, description="p")
-    inductance: Inductance = Field(description="L_q, across the magnets")
-    inductance_d: Maybe[Inductance] = Field(default=None, description="L_d, along the magnets; default `inductance`")
-    current_limit: PositiveCurrent = Field(description="greatest amplitude of the current")
+    effort: CoordinateEffortFunction = Field("command, as an effort on the coordinate, without losses")
+    torque_constant: TorqueConstant = Field("3/2 p ψ: torque per amplitude of the current i_q")
+    pole_pairs: Whole = Field("p", default=4)
+    inductance: Inductance = Field("L_q, across the magnets")
+    inductance_d: Maybe[Inductance] = Field("L_d, along the magnets; default `inductance`", default=None)
+    current_limit: PositiveCurrent = Field("greatest amplitude of the current")
     current_d: Annotated[OneFunction, varying("current")] = Field(
-        default=0.0, description="i_d asked for; negative: it weakens the field"
+        "i_d asked for; negative: it weakens the field", default=0.0
     )
     bandwidth: Annotated[OneNumber, Quantity("frequency", positive=True)] = Field(
-        default=300.0, description="of the current controllers"
+        "of the current controllers", default=300.0
     )
     dc_voltage: Maybe[Annotated[OneNumber, Quantity("voltage", positive=True)]] = Field(
-        default=None, description="of the dc link; or `battery`"
+        "of the dc link; or `battery`", default=None
     )
-    battery: Maybe[OneRecord[Battery]] = Field(default=None, description="that feeds the dc link")
+    battery: Maybe[OneRecord[Battery]] = Field("that feeds the dc link", default=None)
     inverter_power: Annotated[OneNumber, Quantity("power"), NotNegative] = Field(
-        default=0.0, description="P₀, that it takes always"
+        "P₀, that it takes always", default=0.0
     )
     inverter_drop: Annotated[OneNumber, Quantity("voltage"), NotNegative] = Field(
-        default=0.0, description="V, of a conducting switch, its switching losses per current among it"
+        "V, of a conducting switch, its switching losses per current among it", default=0.0
     )
     inverter_resistance: Annotated[OneNumber, Quantity("resistance"), NotNegative] = Field(
-        default=0.0, description="R_s, of a conducting switch"
+        "R_s, of a conducting switch", default=0.0
     )
 
     def problems(self) -> Iterator[Problem]:

@@ -40,12 +40,12 @@ class Blade(OnSoil):
         *ON_SOIL,
     )
     type: Literal["blade"] = "blade"
-    edge: TwoMarkers = Field(description="two markers of a body: the ends of the edge, the left one first")
-    rake: PositiveAngle = Field(default=0.87, description="from where the blade looks up to its face")
-    floor: PositiveLength = Field(default=0.1, description="length behind the edge that bears on the soil")
-    capacity: Maybe[Volume] = Field(default=None, description="that a bucket carries", absent="a blade pushes all")
+    edge: TwoMarkers = Field("two markers of a body: the ends of the edge, the left one first")
+    rake: PositiveAngle = Field("from where the blade looks up to its face", default=0.87)
+    floor: PositiveLength = Field("length behind the edge that bears on the soil", default=0.1)
+    capacity: Maybe[Volume] = Field("that a bucket carries", default=None, absent="a blade pushes all")
     load_at: Maybe[MarkerPlace] = Field(
-        default=None, description="marker of the same body: middle of what a bucket carries", absent="the left end"
+        "marker of the same body: middle of what a bucket carries", default=None, absent="the left end"
     )
 
     def problems(self) -> Iterator[Problem]:
@@ -66,7 +66,7 @@ class SoilWheel(OnSoil):
     )
 
     type: Literal["soil-wheel"] = "soil-wheel"
-    wheel: MarkerPlace = Field(description="marker on the wheel: its point is the centre, its z axis the axle")
+    wheel: MarkerPlace = Field("marker on the wheel: its point is the centre, its z axis the axle")
     radius: PositiveLength
     width: PositiveLength
 

@@ -107,13 +107,13 @@ SOFTER = {"along": 0.85, "across": 0.65}  # stiffness of the carcass by the vert
 class SlipCurve(Checked):
     """Force over slip of one direction at the nominal load and at twice that, and the carcass in this direction."""
 
-    slope: Maybe[TwoForces] = Field(default=None, description="of force over slip at zero slip", absent="guessed")
-    peak: Maybe[TwoForces] = Field(default=None, description="largest force", absent="guessed")
-    peak_slip: Maybe[TwoShares] = Field(default=None, description="slip of the largest force", absent="guessed")
-    sliding: Maybe[TwoForces] = Field(default=None, description="force where all of the patch slides", absent="guessed")
-    sliding_slip: Maybe[TwoShares] = Field(default=None, description="slip from which on all slides", absent="guessed")
-    stiffness: Maybe[PositiveStiffness] = Field(default=None, description="of the carcass", absent="guessed")
-    damping: Maybe[PositiveDamping] = Field(default=None, description="of the carcass", absent="4 ms · stiffness")
+    slope: Maybe[TwoForces] = Field("of force over slip at zero slip", default=None, absent="guessed")
+    peak: Maybe[TwoForces] = Field("largest force", default=None, absent="guessed")
+    peak_slip: Maybe[TwoShares] = Field("slip of the largest force", default=None, absent="guessed")
+    sliding: Maybe[TwoForces] = Field("force where all of the patch slides", default=None, absent="guessed")
+    sliding_slip: Maybe[TwoShares] = Field("slip from which on all slides", default=None, absent="guessed")
+    stiffness: Maybe[PositiveStiffness] = Field("of the carcass", default=None, absent="guessed")
+    damping: Maybe[PositiveDamping] = Field("of the carcass", default=None, absent="4 ms · stiffness")
 
     def problems(self) -> Iterator[Problem]:
         for name in ALONG:
@@ -176,42 +176,37 @@ class Tyre(ForceElement):
     )
 
     type: Literal["tyre"] = "tyre"
-    wheel: MarkerPlace = Field(description="marker on the wheel: its point is the centre, its z axis the axle")
-    plane: MarkerPlace = Field(description="marker: its point lies in the plane, its z axis points out of it")
+    wheel: MarkerPlace = Field("marker on the wheel: its point is the centre, its z axis the axle")
+    plane: MarkerPlace = Field("marker: its point lies in the plane, its z axis points out of it")
     heights: Maybe[OneRecord[HeightField]] = Field(
-        default=None, description="of ground that is not flat, along the z axis of the `plane` over its x and y axes"
+        "of ground that is not flat, along the z axis of the `plane` over its x and y axes", default=None
     )
     file: str | None = Field(
+        "`.tir` file of a Magic Formula, relative to the machine file: sizes, stiffness and curves that are not given here",
         default=None,
-        description="`.tir` file of a Magic Formula, relative to the machine file: sizes, stiffness and curves that are not given here",
     )
     side: Literal["left", "right"] | None = Field(
+        "of the vehicle on which it is: on the other one than that of the `file` it is in the mirror; default: as the file",
         default=None,
-        description="of the vehicle on which it is: on the other one than that of the `file` it is in the mirror; default: as the file",
     )
-    pressure: Maybe[Pressure] = Field(default=None, description="of inflation", absent="that of the `file`")
-    magic: Maybe[OneRecord[MagicFormula]] = Field(default=None, description="the numbers of the `file`")
-    radius: PositiveLength = Field(description="of the tyre without load")
-    width: PositiveLength = Field(description="of the patch")
-    nominal_load: PositiveForce = Field(description="to which the first numbers of the curves belong")
-    stiffness: Maybe[PositiveStiffness] = Field(
-        default=None, description="vertical one", absent="15 · nominal_load / radius"
-    )
-    damping: Maybe[PositiveDamping] = Field(default=None, description="vertical one", absent="2 ms · stiffness")
-    along: OneRecord[SlipCurve] = Field(default=SlipCurve(), description="curve of the longitudinal force, and carcass")
-    across: OneRecord[SlipCurve] = Field(default=SlipCurve(), description="curve of the lateral force, and carcass")
-    trail: TwoShares = Field(
-        default=(0.178, 0.19), description="of the lateral force at zero slip, by the length of the patch"
-    )
-    trail_zero: TwoShares = Field(default=(0.2, 0.22), description="lateral slip at which the trail is zero")
-    trail_end: TwoShares = Field(default=(0.35, 0.4), description="lateral slip from which on it is zero again")
+    pressure: Maybe[Pressure] = Field("of inflation", default=None, absent="that of the `file`")
+    magic: Maybe[OneRecord[MagicFormula]] = Field("the numbers of the `file`", default=None)
+    radius: PositiveLength = Field("of the tyre without load")
+    width: PositiveLength = Field("of the patch")
+    nominal_load: PositiveForce = Field("to which the first numbers of the curves belong")
+    stiffness: Maybe[PositiveStiffness] = Field("vertical one", default=None, absent="15 · nominal_load / radius")
+    damping: Maybe[PositiveDamping] = Field("vertical one", default=None, absent="2 ms · stiffness")
+    along: OneRecord[SlipCurve] = Field("curve of the longitudinal force, and carcass", default=SlipCurve())
+    across: OneRecord[SlipCurve] = Field("curve of the lateral force, and carcass", default=SlipCurve())
+    trail: TwoShares = Field("of the lateral force at zero slip, by the length of the patch", default=(0.178, 0.19))
+    trail_zero: TwoShares = Field("lateral slip at which the trail is zero", default=(0.2, 0.22))
+    trail_end: TwoShares = Field("lateral slip from which on it is zero again", default=(0.35, 0.4))
     grip: Grip = Field(
-        default=1.0,
-        description="factor of peak and sliding forces and of their slips; a function, of the place `x`, `y` too",
+        "factor of peak and sliding forces and of their slips; a function, of the place `x`, `y` too", default=1.0
     )
-    rolling_resistance: NotNegativeNumber = Field(default=ROLLING, description="force by load")
+    rolling_resistance: NotNegativeNumber = Field("force by load", default=ROLLING)
     rolling_share: NotNegativeNumber = Field(
-        default=0.375, description="of the deflection that the rolling radius does not follow, at the nominal load"
+        "of the deflection that the rolling radius does not follow, at the nominal load", default=0.375
     )
 
     @property

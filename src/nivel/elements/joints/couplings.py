@@ -26,7 +26,7 @@ from nivel.machine.units.tree import Call, ExpressionError, Lookup, Node, Number
 from nivel.machine.uses.coordinate_reference import CoordinateReference, Kind
 
 Terms = tuple[tuple[str, float], ...]
-_TWO = Field(description="two joint coordinates, or joints that have only one")
+_TWO = Field("two joint coordinates, or joints that have only one")
 
 
 class Gear(Checked):
@@ -37,9 +37,9 @@ class Gear(Checked):
     name: Name
     type: Literal["gear"] = "gear"
     joints: Annotated[TwoNames[CoordinateReference], _TWO]
-    teeth: Maybe[TwoNumbers[PositiveNumber]] = Field(default=None, description="numbers of teeth n₁, n₂")
-    ratio: Maybe[PositiveNumber] = Field(default=None, description="n₂/n₁, in place of `teeth`")
-    internal: Truth = Field(default=False, description="one wheel runs inside the other: both turn the same way")
+    teeth: Maybe[TwoNumbers[PositiveNumber]] = Field("numbers of teeth n₁, n₂", default=None)
+    ratio: Maybe[PositiveNumber] = Field("n₂/n₁, in place of `teeth`", default=None)
+    internal: Truth = Field("one wheel runs inside the other: both turn the same way", default=False)
 
     @property
     def terms(self) -> Terms:
@@ -72,8 +72,8 @@ class Belt(Checked):
     name: Name
     type: Literal["belt"] = "belt"
     joints: Annotated[TwoNames[CoordinateReference], _TWO]
-    radii: TwoNumbers[PositiveLength] = Field(description="of the pulleys r₁, r₂")
-    crossed: Truth = Field(default=False, description="the belt crosses itself: the pulleys turn opposite ways")
+    radii: TwoNumbers[PositiveLength] = Field("of the pulleys r₁, r₂")
+    crossed: Truth = Field("the belt crosses itself: the pulleys turn opposite ways", default=False)
 
     @property
     def terms(self) -> Terms:
@@ -94,8 +94,8 @@ class Rack(Checked):
 
     name: Name
     type: Literal["rack"] = "rack"
-    joints: TwoNames[CoordinateReference] = Field(description="the pinion's angle, the rack's way")
-    radius: Length = Field(description="of the pinion; negative: the rack moves the other way")
+    joints: TwoNames[CoordinateReference] = Field("the pinion's angle, the rack's way")
+    radius: Length = Field("of the pinion; negative: the rack moves the other way")
 
     @property
     def terms(self) -> Terms:
@@ -119,8 +119,8 @@ class LinearCoupling(Checked):
 
     name: Name
     type: Literal["linear"] = "linear"
-    coordinates: ManyNames[CoordinateReference] = Field(description="two or more different joint coordinates")
-    factors: ManyNumbers[Scalar] = Field(description="one for each coordinate [m or rad], none zero")
+    coordinates: ManyNames[CoordinateReference] = Field("two or more different joint coordinates")
+    factors: ManyNumbers[Scalar] = Field("one for each coordinate [m or rad], none zero")
 
     @property
     def terms(self) -> Terms:
@@ -154,11 +154,10 @@ class FunctionCoupling(Checked):
 
     name: Name
     type: Literal["function"] = "function"
-    coordinate: CoordinateReference = Field(description="joint coordinate that follows")
-    value: CoordinatePosition = Field(description="length or angle, a smooth function of other joint coordinates")
+    coordinate: CoordinateReference = Field("joint coordinate that follows")
+    value: CoordinatePosition = Field("length or angle, a smooth function of other joint coordinates")
     from_start: Truth = Field(
-        default=False,
-        description="the coordinate moves from where it is placed by what `value` changes from its value as placed",
+        "the coordinate moves from where it is placed by what `value` changes from its value as placed", default=False
     )
 
     @property

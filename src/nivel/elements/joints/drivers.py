@@ -66,14 +66,14 @@ class DrivenOrientation(Checked):
     """One of: `euler` with `sequence`, `axis` with `angle`, `euler_parameters`; all functions of time."""
 
     euler: Annotated[Maybe[ThreeFunctions[AngleMotion]], BeforeValidator(listed)] = Field(
-        default=None, description="three angles, each about an axis of the frame as turned so far"
+        "three angles, each about an axis of the frame as turned so far", default=None
     )
-    sequence: AxisSequence | None = Field(default=None, description="axes of the three turns, e.g. zyx")
-    axis: Maybe[Direction] = Field(default=None, description="axis of the turn, of any length")
-    angle: Maybe[AngleMotion] = Field(default=None, description="turn about `axis`, right-handed")
+    sequence: AxisSequence | None = Field("axes of the three turns, e.g. zyx", default=None)
+    axis: Maybe[Direction] = Field("axis of the turn, of any length", default=None)
+    angle: Maybe[AngleMotion] = Field("turn about `axis`, right-handed", default=None)
     euler_parameters: Annotated[Maybe[FourFunctions[ShareMotion]], BeforeValidator(_columns)] = Field(
+        "four functions, scalar first, or one table whose `values` have four numbers a row; made of unit length",
         default=None,
-        description="four functions, scalar first, or one table whose `values` have four numbers a row; made of unit length",
     )
 
     @property
@@ -143,35 +143,31 @@ class Driver(Checked):
     collection: ClassVar[str] = "drivers"
 
     name: Name
-    coordinate: CoordinateReference | None = Field(default=None, description="joint coordinate that is driven")
-    marker: Name | None = Field(default=None, description="marker that is driven, in place of `coordinate`")
+    coordinate: CoordinateReference | None = Field("joint coordinate that is driven", default=None)
+    marker: Name | None = Field("marker that is driven, in place of `coordinate`", default=None)
     along: Literal["x", "y", "z"] | None = Field(
-        default=None, description="axis of `relative_to` along which the marker's point is driven"
+        "axis of `relative_to` along which the marker's point is driven", default=None
     )
     about: Literal["x", "y", "z"] | None = Field(
-        default=None,
-        description="axis of `relative_to` about which the marker is turned, measured between the axes that follow it",
+        "axis of `relative_to` about which the marker is turned, measured between the axes that follow it", default=None
     )
-    relative_to: Name | None = Field(default=None, description="marker from which it is measured; default `ground`")
-    value: Maybe[CoordinateMotion] = Field(default=None, description="length or angle, a function of time")
+    relative_to: Name | None = Field("marker from which it is measured; default `ground`", default=None)
+    value: Maybe[CoordinateMotion] = Field("length or angle, a function of time", default=None)
     speed: Maybe[CoordinateSpeed] = Field(
-        default=None,
-        description="in place of `value`: rate, a function of time; the coordinate begins where it is placed",
+        "in place of `value`: rate, a function of time; the coordinate begins where it is placed", default=None
     )
     acceleration: Maybe[CoordinateAcceleration] = Field(
-        default=None, description="in place of `value`: a function of time; the coordinate begins where it is placed"
+        "in place of `value`: a function of time; the coordinate begins where it is placed", default=None
     )
-    start_speed: CoordinateRate = Field(default=0.0, description="with `acceleration`: rate at t = 0")
+    start_speed: CoordinateRate = Field("with `acceleration`: rate at t = 0", default=0.0)
     position: Annotated[Maybe[ThreeFunctions[LengthMotion]], BeforeValidator(listed)] = Field(
-        default=None,
-        description="of the marker's point from that of `relative_to`, along its axes: three functions of time",
+        "of the marker's point from that of `relative_to`, along its axes: three functions of time", default=None
     )
     orientation: Maybe[OneRecord[DrivenOrientation]] = Field(
-        default=None, description="of the marker's axes in those of `relative_to`, functions of time"
+        "of the marker's axes in those of `relative_to`, functions of time", default=None
     )
     from_start: Truth = Field(
-        default=False,
-        description="the coordinate moves from where it is placed by what `value` changes from its value at t = 0",
+        "the coordinate moves from where it is placed by what `value` changes from its value at t = 0", default=False
     )
 
     @property

@@ -86,40 +86,36 @@ class Joint(Checked):
 
     name: Name
     type: JointType
-    bodies: Maybe[TwoNames[BodyName]] = Field(default=None, description="first and second body; one may be `ground`")
-    markers: Maybe[TwoMarkers] = Field(default=None, description="on the first and second body: names or markers")
-    point: Maybe[Position] = Field(default=None, description="of the joint, global")
+    bodies: Maybe[TwoNames[BodyName]] = Field("first and second body; one may be `ground`", default=None)
+    markers: Maybe[TwoMarkers] = Field("on the first and second body: names or markers", default=None)
+    point: Maybe[Position] = Field("of the joint, global", default=None)
     interface: Name | None = Field(
-        default=None, description="of a flexible body among the two, by name, instead of `point`: where it is as placed"
+        "of a flexible body among the two, by name, instead of `point`: where it is as placed", default=None
     )
     points: Maybe[TwoPlaces[Position]] = Field(
-        default=None, description="of a joint between two points: on the first body, on the second; global"
+        "of a joint between two points: on the first body, on the second; global", default=None
     )
-    axis: Maybe[Direction] = Field(default=None, description="of the joint; global, of any length")
+    axis: Maybe[Direction] = Field("of the joint; global, of any length", default=None)
     axes: Maybe[TwoPlaces[Direction]] = Field(
+        "of a joint with two axes: on the first body, on the second; global; perpendicular in a universal one",
         default=None,
-        description="of a joint with two axes: on the first body, on the second; global; perpendicular in a universal one",
     )
     x_axis: Maybe[Direction] = Field(
-        default=None, description="where the joint's x axis points, made perpendicular to `axis`; global"
+        "where the joint's x axis points, made perpendicular to `axis`; global", default=None
     )
-    pitch: Maybe[Length] = Field(default=None, description="of a screw, advance per turn; negative: left-handed")
-    distance: Maybe[PositiveLength] = Field(default=None, description="held between the points; default as placed")
-    radius: Maybe[PositiveLength] = Field(default=None, description="of a wheel that rolls, at its outermost points")
+    pitch: Maybe[Length] = Field("of a screw, advance per turn; negative: left-handed", default=None)
+    distance: Maybe[PositiveLength] = Field("held between the points; default as placed", default=None)
+    radius: Maybe[PositiveLength] = Field("of a wheel that rolls, at its outermost points", default=None)
     rim_radius: Maybe[Length] = Field(
+        "of its rim where it touches, in a section through the axle; default 0, a sharp edge; as large as `radius`: a ball",
         default=None,
-        description="of its rim where it touches, in a section through the axle; default 0, a sharp edge; as large as `radius`: a ball",
     )
     locked: Maybe[Given[tuple[Motion, ...], tuple[Motion, ...], Sequence[Motion]]] = Field(
+        "of a generic joint: motions that it does not allow, x y z along and rx ry rz about the axes of its first marker",
         default=None,
-        description="of a generic joint: motions that it does not allow, x y z along and rx ry rz about the axes of its first marker",
     )
-    start: Maybe[OneRecord[CoordinateValues]] = Field(
-        default=None, description="of joint coordinates, held by the assembly"
-    )
-    start_rates: Maybe[OneRecord[CoordinateRates]] = Field(
-        default=None, description="of joint coordinates at the start"
-    )
+    start: Maybe[OneRecord[CoordinateValues]] = Field("of joint coordinates, held by the assembly", default=None)
+    start_rates: Maybe[OneRecord[CoordinateRates]] = Field("of joint coordinates at the start", default=None)
 
     @property
     def coordinates(self) -> tuple[str, ...]:

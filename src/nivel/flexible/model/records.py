@@ -56,7 +56,7 @@ class BeamRecord(Checked):
     section: Name
     material: Name
     elements: Positive = 8
-    up: Maybe[Direction] = Field(default=None, description="the local z axis is as near to this direction as it can be")
+    up: Maybe[Direction] = Field("the local z axis is as near to this direction as it can be", default=None)
 
 
 class PointMassRecord(Checked):
@@ -87,11 +87,11 @@ class Matrices(Checked):
 
     format: Literal["nastran", "op4", "abaqus", "calculix", "matrix-market"]
     stiffness: Text
-    mass: Text | None = Field(default=None, description="default: the file of the stiffness has both")
-    freedoms: Text | None = Field(default=None, description="which node and direction each row is")
-    nodes: Text = Field(description="a mesh (.inp), bulk data (.bdf, .dat) or a table (.csv)")
-    stiffness_name: str | None = Field(default=None, description="name of the matrix in the file")
-    mass_name: str | None = Field(default=None, description="name of the matrix in the file")
+    mass: Text | None = Field("default: the file of the stiffness has both", default=None)
+    freedoms: Text | None = Field("which node and direction each row is", default=None)
+    nodes: Text = Field("a mesh (.inp), bulk data (.bdf, .dat) or a table (.csv)")
+    stiffness_name: str | None = Field("name of the matrix in the file", default=None)
+    mass_name: str | None = Field("name of the matrix in the file", default=None)
     units: OneRecord[Units] = Field(default=Units())
 
 
@@ -129,20 +129,18 @@ class BoxRegion(Checked):
 class InterfaceRecord(Checked):
     """Where the body is held or loaded: a node, or a set of nodes tied to a reference node."""
 
-    node: Annotated[str | int | None, BeforeValidator(_node)] = Field(
-        default=None, description="name or number of a node"
-    )
-    nodes: tuple[int, ...] | None = Field(default=None, description="numbers of nodes that are tied")
-    set: str | None = Field(default=None, description="name of a node set in the mesh, whose nodes are tied")
+    node: Annotated[str | int | None, BeforeValidator(_node)] = Field("name or number of a node", default=None)
+    nodes: tuple[int, ...] | None = Field("numbers of nodes that are tied", default=None)
+    set: str | None = Field("name of a node set in the mesh, whose nodes are tied", default=None)
     plane: Maybe[OneRecord[Plane]] = Field(default=None)
     cylinder: Maybe[OneRecord[CylinderSurface]] = Field(default=None)
     box: Maybe[OneRecord[BoxRegion]] = Field(default=None)
-    within: Maybe[OneRecord[BoxRegion]] = Field(default=None, description="only the nodes in this box")
+    within: Maybe[OneRecord[BoxRegion]] = Field("only the nodes in this box", default=None)
     tie: Literal["rigid", "average"] = Field(
-        default="rigid", description="rigid: the nodes move as one solid (RBE2); average: they share the force (RBE3)"
+        "rigid: the nodes move as one solid (RBE2); average: they share the force (RBE3)", default="rigid"
     )
-    at: Maybe[Position] = Field(default=None, description="the reference node; default: the middle of the nodes")
-    tolerance: Maybe[PositiveLength] = Field(default=None, description="distance up to which a node is on a surface")
+    at: Maybe[Position] = Field("the reference node; default: the middle of the nodes", default=None)
+    tolerance: Maybe[PositiveLength] = Field("distance up to which a node is on a surface", default=None)
 
     def problems(self) -> Iterator[Problem]:
         ways = ("node", "nodes", "set", "plane", "cylinder", "box")
@@ -193,17 +191,14 @@ class Reduction(Checked):
 
     modes: Annotated[Modes, BeforeValidator(_modes)] = Modes(count=10)
     method: Literal["craig-bampton", "free-interface", "normal-modes"] = "craig-bampton"
-    shapes: tuple[ShapeFunction, ...] | Text = Field(default=(), description="of `modes: given`")
+    shapes: tuple[ShapeFunction, ...] | Text = Field("of `modes: given`", default=())
     mass: Literal["consistent", "lumped"] = "consistent"
-    reference: str = Field(default="mean-axis", description="mean-axis, or the interface with which the frame moves")
-    held: ManyNames[str] = Field(
-        default=(), description="six degrees of freedom `interface.x` … `interface.rz` instead"
-    )
+    reference: str = Field("mean-axis, or the interface with which the frame moves", default="mean-axis")
+    held: ManyNames[str] = Field("six degrees of freedom `interface.x` … `interface.rz` instead", default=())
     inertia_modes: Truth = Field(
-        default=False,
-        description="whether static answers to its own inertia (accelerations, spinning) are added to the modes",
+        "whether static answers to its own inertia (accelerations, spinning) are added to the modes", default=False
     )
-    stiffening: Truth = Field(default=False, description="whether geometric stiffness is computed")
+    stiffening: Truth = Field("whether geometric stiffness is computed", default=False)
 
     def problems(self) -> Iterator[Problem]:
         if self.modes.given != bool(self.shapes):
@@ -222,11 +217,11 @@ class Recovery(Checked):
 
     stress: Truth = True
     strain: Truth = False
-    nodes: Literal["all", "interfaces"] | tuple[int, ...] = Field(default="all", description="where stress is known")
+    nodes: Literal["all", "interfaces"] | tuple[int, ...] = Field("where stress is known", default="all")
 
 
 class _PartRecord(Checked):
-    cut: Truth = Field(default=False, description="taken away from the parts before it instead of added")
+    cut: Truth = Field("taken away from the parts before it instead of added", default=False)
 
 
 class BoxPart(_PartRecord):
@@ -284,7 +279,7 @@ class Solid(Checked):
     """A solid of one material, meshed with tetrahedra of ten nodes."""
 
     parts: tuple[Part, ...] = ()
-    file: FileName | None = Field(default=None, description="a STEP file")
+    file: FileName | None = Field("a STEP file", default=None)
     material: Name
     element_size: PositiveLength
     tagged = {"parts": 2}  # noqa: RUF012
@@ -309,7 +304,7 @@ class ModelRecord(Checked):
     interfaces: dict[Name, InterfaceRecord] = Field(default={})
     reduction: OneRecord[Reduction] = Field(default=Reduction())
     recovery: OneRecord[Recovery] = Field(default=Recovery())
-    expected_mass: Maybe[Mass] = Field(default=None, description="what the body should weigh, to check the units")
+    expected_mass: Maybe[Mass] = Field("what the body should weigh, to check the units", default=None)
 
     tagged = {"sections": 2}  # noqa: RUF012
 

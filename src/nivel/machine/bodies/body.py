@@ -41,12 +41,12 @@ def _distinct(values: Any) -> Any:
 class Flexibility(Record):
     """A body that bends by the modes in a file of `nivel reduce`."""
 
-    file: str = Field(min_length=1, description="file of `nivel reduce`, relative to the machine file")
-    modes: Annotated[Whole, Field(ge=1)] | None = Field(default=None, description="how many, lowest first; default all")
-    damping_ratio: Annotated[Real, Field(ge=0.0, lt=1.0)] = Field(default=0.0, description="of each mode")
+    file: str = Field("file of `nivel reduce`, relative to the machine file", min_length=1)
+    modes: Annotated[Whole, Field(ge=1)] | None = Field("how many, lowest first; default all", default=None)
+    damping_ratio: Annotated[Real, Field(ge=0.0, lt=1.0)] = Field("of each mode", default=0.0)
     neglect: Annotated[
         Given[tuple[Invariant, ...], tuple[Invariant, ...], Invariant | Sequence[Invariant]], BeforeValidator(_distinct)
-    ] = Field(default=(), description="inertia invariants that the moving body does without: I5, I8, I9")
+    ] = Field("inertia invariants that the moving body does without: I5, I8, I9", default=())
 
 
 def _file_or_mapping(value: Any) -> Any:
@@ -91,37 +91,27 @@ class Body(Checked):
     name: Name
     mass: Maybe[Mass] = Field(default=None)
     centre_of_mass: Maybe[Position] = Field(
-        default=None, description="in the body frame; default the origin, or the shape's centre"
+        "in the body frame; default the origin, or the shape's centre", default=None
     )
     inertia: Maybe[InertiaTensor] = Field(
-        default=None, description="body axes: [xx, yy, zz], {xx, yy, zz, xy, xz, yz} or 3×3 matrix"
+        "body axes: [xx, yy, zz], {xx, yy, zz, xy, xz, yz} or 3×3 matrix", default=None
     )
     inertia_about: Literal["centre-of-mass", "origin"] = "centre-of-mass"
-    position: Maybe[Position] = Field(
-        default=None, description="of the body frame's origin, global; default the global origin"
-    )
-    orientation: Maybe[OneRecord[Orientation]] = Field(
-        default=None, description="of the body frame; default not turned"
-    )
-    velocity: VelocityVector = Field(
-        default=(0.0, 0.0, 0.0), description="of the body frame's origin, global axes", usual=SPEED
-    )
-    angular_velocity: Maybe[AngularVelocityVector] = Field(default=None, description="global axes", usual=ANGULAR_SPEED)
-    angular_velocity_body: Maybe[AngularVelocityVector] = Field(
-        default=None, description="body axes", usual=ANGULAR_SPEED
-    )
+    position: Maybe[Position] = Field("of the body frame's origin, global; default the global origin", default=None)
+    orientation: Maybe[OneRecord[Orientation]] = Field("of the body frame; default not turned", default=None)
+    velocity: VelocityVector = Field("of the body frame's origin, global axes", default=(0.0, 0.0, 0.0), usual=SPEED)
+    angular_velocity: Maybe[AngularVelocityVector] = Field("global axes", default=None, usual=ANGULAR_SPEED)
+    angular_velocity_body: Maybe[AngularVelocityVector] = Field("body axes", default=None, usual=ANGULAR_SPEED)
     shape: Maybe[OneRecord[Shape]] = Field(default=None)
     looks: Annotated[ManyRecords[Shape], BeforeValidator(listed)] = Field(
-        default=(), description="further solids that are drawn, in the body frame; they have no mass and touch nothing"
+        "further solids that are drawn, in the body frame; they have no mass and touch nothing", default=()
     )
     density: Maybe[Density] = Field(default=None, usual=DENSITY)
-    flexible: Maybe[FlexibleBody] = Field(
-        default=None, description="modes by which it bends; its mass is in their file"
-    )
-    point_mass: Truth = Field(default=False, description="a mass at a point, which does not turn")
-    hold: Truth = Field(default=False, description="the assembly does not move it")
+    flexible: Maybe[FlexibleBody] = Field("modes by which it bends; its mass is in their file", default=None)
+    point_mass: Truth = Field("a mass at a point, which does not turn", default=False)
+    hold: Truth = Field("the assembly does not move it", default=False)
     assembly_weight: PositiveNumber = Field(
-        default=1.0, description="weight of its displacement in the assembly; a larger weight is moved less"
+        "weight of its displacement in the assembly; a larger weight is moved less", default=1.0
     )
 
     def problems(self) -> Iterator[Problem]:

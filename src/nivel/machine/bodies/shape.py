@@ -55,19 +55,15 @@ Along = Literal["x", "y", "z"]
 MOST_PARTS: Final = 64  # convex parts of a mesh
 _NEAR: Final = 1e-9  # [m] two end points closer than this have no direction
 
-_FROM = Field(
-    default=None, key="from", description="global point where the body x axis starts; then the body needs no position"
-)
-_TO = Field(default=None, description="global point to which the body x axis points")
-_CENTRE = Field(default=None, description="centre of the shape in the body frame; default the origin")
+_FROM = Field("global point where the body x axis starts; then the body needs no position", default=None, key="from")
+_TO = Field("global point to which the body x axis points", default=None)
+_CENTRE = Field("centre of the shape in the body frame; default the origin", default=None)
 
 
 class _Coloured(Record):
     """What is drawn."""
 
-    colour: Colour | None = Field(
-        default=None, description="a name or '#rrggbb'; default follows from the body's number"
-    )
+    colour: Colour | None = Field("a name or '#rrggbb'; default follows from the body's number", default=None)
 
 
 class _Between(_Coloured):
@@ -144,7 +140,7 @@ class Cylinder(_Long):
     type: Literal["cylinder"] = "cylinder"
     radius: PositiveLength = Field(usual=SOLID)
     length: Maybe[PositiveLength] = Field(default=None, usual=SOLID)
-    along: Along | None = Field(default=None, description="body axis; default x")
+    along: Along | None = Field("body axis; default x", default=None)
 
 
 class Tube(_Long):
@@ -156,7 +152,7 @@ class Tube(_Long):
     outer_radius: PositiveLength = Field(usual=SOLID)
     inner_radius: PositiveLength
     length: Maybe[PositiveLength] = Field(default=None, usual=SOLID)
-    along: Along | None = Field(default=None, description="body axis; default x")
+    along: Along | None = Field("body axis; default x", default=None)
 
     @model_validator(mode="after")
     def _hollow(self) -> Tube:
@@ -175,9 +171,9 @@ class Capsule(_Long):
     type: Literal["capsule"] = "capsule"
     radius: PositiveLength = Field(usual=SOLID)
     length: Maybe[PositiveLength] = Field(
-        default=None, description="of the straight part, between the centres of the balls", usual=SOLID
+        "of the straight part, between the centres of the balls", default=None, usual=SOLID
     )
-    along: Along | None = Field(default=None, description="body axis; default x")
+    along: Along | None = Field("body axis; default x", default=None)
 
 
 Corner = Annotated[TwoNumbers[Length], BeforeValidator(listed)]
@@ -191,10 +187,10 @@ class Extrusion(_Long):
 
     type: Literal["extrusion"] = "extrusion"
     outline: Annotated[ManyCorners[Corner], BeforeValidator(listed)] = Field(
-        description="corners in their order, at least three; lines between them do not cross"
+        "corners in their order, at least three; lines between them do not cross"
     )
     length: Maybe[PositiveLength] = Field(default=None, usual=SOLID)
-    along: Along | None = Field(default=None, description="body axis; default x")
+    along: Along | None = Field("body axis; default x", default=None)
 
     @model_validator(mode="after")
     def _sound(self) -> Extrusion:
@@ -212,22 +208,17 @@ class Mesh(_Coloured):
     """
 
     type: Literal["mesh"] = "mesh"
-    file: str = Field(default="", description="STL, OBJ or glTF file, relative to the folder of the machine file")
-    unit: PositiveLength = Field(default=1.0, description="length of one unit of the file")
-    position: Maybe[Position] = Field(
-        default=None, description="of the file's origin in the body frame; default the origin"
-    )
+    file: str = Field("STL, OBJ or glTF file, relative to the folder of the machine file", default="")
+    unit: PositiveLength = Field("length of one unit of the file", default=1.0)
+    position: Maybe[Position] = Field("of the file's origin in the body frame; default the origin", default=None)
     orientation: Maybe[OneRecord[Orientation]] = Field(
-        default=None, description="of the file's axes in the body frame; default not turned"
+        "of the file's axes in the body frame; default not turned", default=None
     )
     convex_parts: Whole = Field(
-        default=1,
-        ge=1,
-        le=MOST_PARTS,
-        description="at most so many convex parts touch other bodies, in place of the hull",
+        "at most so many convex parts touch other bodies, in place of the hull", default=1, ge=1, le=MOST_PARTS
     )
-    surface: str | None = Field(default=None, description="the triangles, filled when the file is read")
-    parts: tuple[str, ...] | None = Field(default=None, description="the convex parts, filled when the file is read")
+    surface: str | None = Field("the triangles, filled when the file is read", default=None)
+    parts: tuple[str, ...] | None = Field("the convex parts, filled when the file is read", default=None)
 
     @model_validator(mode="after")
     def _readable(self) -> Mesh:
@@ -260,7 +251,7 @@ class Ellipsoid(_Coloured):
     """A solid with three semi-axes: `semi_axes` along the body x, y and z axes."""
 
     type: Literal["ellipsoid"] = "ellipsoid"
-    semi_axes: ThreeNumbers[PositiveLength] = Field(description="along the body x, y and z axes", usual=SOLID)
+    semi_axes: ThreeNumbers[PositiveLength] = Field("along the body x, y and z axes", usual=SOLID)
     centre: Maybe[Position] = _CENTRE
 
 

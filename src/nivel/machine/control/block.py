@@ -55,14 +55,12 @@ class Block(Checked):
     name: Name
     if TYPE_CHECKING:  # the word of every kind
         type: Any
-    sample_time: Maybe[Duration] = Field(
-        default=None, description="time between samples; without it the block is continuous"
-    )
-    offset: NotNegativeTime = Field(default=0.0, description="time of the first sample")
-    latency: NotNegativeTime = Field(default=0.0, description="from a sample to the change of the value")
-    units: str = Field(default="", description="SI unit of the value, for people")
+    sample_time: Maybe[Duration] = Field("time between samples; without it the block is continuous", default=None)
+    offset: NotNegativeTime = Field("time of the first sample", default=0.0)
+    latency: NotNegativeTime = Field("from a sample to the change of the value", default=0.0)
+    units: str = Field("SI unit of the value, for people", default="")
     scale: Maybe[PositiveNumber] = Field(
-        default=None, description="size of values that matter, by which errors of continuous states are measured"
+        "size of values that matter, by which errors of continuous states are measured", default=None
     )
 
     @classmethod

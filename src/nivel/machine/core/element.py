@@ -100,7 +100,7 @@ End = str | Marker | GlobalPoint  # the name of a marker, a marker, or a point
 class BetweenMarkers(ForceElement):
     """Acts between two `markers`: on the first body and on the second."""
 
-    markers: TwoMarkers = Field(description="on the first and second body: names or markers")
+    markers: TwoMarkers = Field("on the first and second body: names or markers")
 
     @property
     def ends(self) -> tuple[End, End]:
@@ -111,10 +111,10 @@ class BetweenMarkers(ForceElement):
 class Ends(Checked):
     """Two `markers`, or two `points` (global, as placed) of two `bodies`."""
 
-    markers: Maybe[TwoMarkers] = Field(default=None, description="on the first and second body: names or markers")
-    bodies: Maybe[TwoNames[BodyName]] = Field(default=None, description="first and second body, in place of `markers`")
+    markers: Maybe[TwoMarkers] = Field("on the first and second body: names or markers", default=None)
+    bodies: Maybe[TwoNames[BodyName]] = Field("first and second body, in place of `markers`", default=None)
     points: Maybe[TwoPlaces[Position]] = Field(
-        default=None, description="where it acts on the first body and on the second, global, as placed"
+        "where it acts on the first body and on the second, global, as placed", default=None
     )
 
     @property
@@ -153,13 +153,13 @@ class BetweenMany(ForceElement):
     where: ClassVar[str]
 
     markers: Annotated[Maybe[ManyMarkers], BeforeValidator(listed)] = Field(
-        default=None, description="where it acts, in order: names or markers; a marker may stand there again"
+        "where it acts, in order: names or markers; a marker may stand there again", default=None
     )
     bodies: Annotated[Maybe[ManyNames[BodyName]], BeforeValidator(listed)] = Field(
-        default=None, description="one for each point, in place of `markers`; a body may stand there again"
+        "one for each point, in place of `markers`; a body may stand there again", default=None
     )
     points: Annotated[Maybe[ManyPlaces[Position]], BeforeValidator(listed)] = Field(
-        default=None, description="where it acts, in order: global, as placed"
+        "where it acts, in order: global, as placed", default=None
     )
 
     @property

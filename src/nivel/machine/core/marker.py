@@ -25,16 +25,15 @@ class Marker(Checked):
     collection: ClassVar[str] = "markers"
     tagged = {"shape": 1}  # noqa: RUF012
 
-    name: Name | None = Field(default=None, description="not needed where the marker stands inside an element")
-    body: BodyName = Field(description="a body, a station of a beam `BEAM.STATION`, or `ground`")
-    position: Position = Field(default=(0.0, 0.0, 0.0), description="in the body frame")
-    interface: Name | None = Field(default=None, description="of a flexible body, by name, instead of `position`")
-    orientation: Maybe[OneRecord[Orientation]] = Field(default=None, description="of the marker in the body frame")
-    axis: Maybe[Direction] = Field(default=None, description="z axis of the marker in the body frame, of any length")
-    x_axis: Maybe[Direction] = Field(default=None, description="x axis, made perpendicular to `axis`")
+    name: Name | None = Field("not needed where the marker stands inside an element", default=None)
+    body: BodyName = Field("a body, a station of a beam `BEAM.STATION`, or `ground`")
+    position: Position = Field("in the body frame", default=(0.0, 0.0, 0.0))
+    interface: Name | None = Field("of a flexible body, by name, instead of `position`", default=None)
+    orientation: Maybe[OneRecord[Orientation]] = Field("of the marker in the body frame", default=None)
+    axis: Maybe[Direction] = Field("z axis of the marker in the body frame, of any length", default=None)
+    x_axis: Maybe[Direction] = Field("x axis, made perpendicular to `axis`", default=None)
     shape: Maybe[OneRecord[Shape]] = Field(
-        default=None,
-        description="a solid in the frame of the marker, which contacts that name the marker touch with; not drawn",
+        "a solid in the frame of the marker, which contacts that name the marker touch with; not drawn", default=None
     )
 
     def problems(self) -> Iterator[Problem]:

@@ -47,18 +47,16 @@ class Orientation(Record):
     """
 
     euler: Annotated[Maybe[ThreeNumbers[Angle]], BeforeValidator(listed)] = Field(
-        default=None, description="three angles, each about an axis of the frame as turned so far"
+        "three angles, each about an axis of the frame as turned so far", default=None
     )
-    sequence: AxisSequence | None = Field(
-        default=None, description="axes of the three turns; zxz is the classical 3-1-3"
-    )
-    axis: Maybe[Direction] = Field(default=None, description="axis of the turn, of any length")
-    angle: Maybe[Angle] = Field(default=None, description="turn about `axis`, right-handed")
+    sequence: AxisSequence | None = Field("axes of the three turns; zxz is the classical 3-1-3", default=None)
+    axis: Maybe[Direction] = Field("axis of the turn, of any length", default=None)
+    angle: Maybe[Angle] = Field("turn about `axis`, right-handed", default=None)
     matrix: Annotated[Maybe[ThreeRows[_Row]], BeforeValidator(listed)] = Field(
-        default=None, description="rows of the rotation matrix; its columns are the axes of the turned frame"
+        "rows of the rotation matrix; its columns are the axes of the turned frame", default=None
     )
     euler_parameters: Annotated[Maybe[FourNumbers[Scalar]], BeforeValidator(listed)] = Field(
-        default=None, description="four numbers, scalar first"
+        "four numbers, scalar first", default=None
     )
 
     @model_validator(mode="after")

@@ -51,25 +51,19 @@ class LineariseSettings(Record):
     """Settings of a linear model."""
 
     about: Annotated[float | str, BeforeValidator(_state)] = Field(
-        default=START,
-        description="state to linearise about: start, equilibrium, rotation (steady, strained by it), or a time up to which the machine is "
+        "state to linearise about: start, equilibrium, rotation (steady, strained by it), or a time up to which the machine is "
         "simulated, e.g. '2 s'",
+        default=START,
         option="--about STATE",
         absent="the start of the machine",
     )
     inputs: Names | None = Field(
-        default=None, description="inputs, e.g. hinge.angle", absent="motors, drivers, commands of circuits"
+        "inputs, e.g. hinge.angle", default=None, absent="motors, drivers, commands of circuits"
     )
-    outputs: Names | None = Field(
-        default=None, description="outputs", absent="sensors, or joint coordinates and pressures"
-    )
-    coordinates: OfStatics = Field(
-        default="auto", description="coordinates of the equations", absent="those of the machine"
-    )
+    outputs: Names | None = Field("outputs", default=None, absent="sensors, or joint coordinates and pressures")
+    coordinates: OfStatics = Field("coordinates of the equations", default="auto", absent="those of the machine")
     verify: bool = Field(
-        default=True,
-        description="vibrations with other elements of beams, to estimate their error",
-        option="--no-verify",
+        "vibrations with other elements of beams, to estimate their error", default=True, option="--no-verify"
     )
 
     @property
@@ -92,38 +86,31 @@ class InverseSettings(Checked):
     """Settings of inverse dynamics. Of more actuators than needed the least Σ (weight · effort)² is taken within the limits."""
 
     actuators: Names | None = Field(
+        "joint coordinates, or motors, which then do not act themselves",
         default=None,
-        description="joint coordinates, or motors, which then do not act themselves",
         absent="the motors, or the coordinates that the drivers prescribe",
     )
     motion: Any = Field(
+        "result of a run or of kinematics",
         default=None,
-        description="result of a run or of kinematics",
         option="--motion RESULT.nc",
         absent="the motion that the drivers prescribe",
     )
     trajectory: str | PathLike[str] | None = Field(
-        default=None,
-        description="table of joint coordinates over time, in place of a motion",
-        option="--trajectory FILE.csv",
+        "table of joint coordinates over time, in place of a motion", default=None, option="--trajectory FILE.csv"
     )
     limits: Mapping[str, Any] = Field(
-        default={},
-        description="greatest effort of an actuator",
-        option="--limit NAME=VALUE",
-        absent="those of the motors",
+        "greatest effort of an actuator", default={}, option="--limit NAME=VALUE", absent="those of the motors"
     )
     weights: Mapping[str, Any] = Field(
+        "weight of an effort, if there are more actuators than needed",
         default={},
-        description="weight of an effort, if there are more actuators than needed",
         option="--weight NAME=NUMBER",
         absent="one over the limit, or 1",
     )
-    hold: Names = Field(default=(), description="drivers that keep what they prescribe", option="--hold DRIVERS")
+    hold: Names = Field("drivers that keep what they prescribe", default=(), option="--hold DRIVERS")
     positions: Maybe[Positions] = Field(
-        default=None,
-        description="number of positions of the drivers' motion or of a trajectory",
-        absent=FEWEST_POSITIONS,
+        "number of positions of the drivers' motion or of a trajectory", default=None, absent=FEWEST_POSITIONS
     )
 
     def problems(self) -> Iterator[Problem]:
@@ -136,26 +123,20 @@ class KinematicsSettings(Record):
     """Settings of kinematics."""
 
     drive: str = Field(
-        default="",
-        description="joint coordinate that is driven at constant speed, e.g. hinge.angle",
-        option="--drive COORDINATE",
+        "joint coordinate that is driven at constant speed, e.g. hinge.angle", default="", option="--drive COORDINATE"
     )
     start: Maybe[Way] = Field(
+        "first value of this coordinate, e.g. '10 deg'",
         default=None,
-        description="first value of this coordinate, e.g. '10 deg'",
         option="--from VALUE",
         absent="its value in the assembled machine",
     )
-    end: Maybe[Way] = Field(
-        default=None, description="last value of this coordinate", option="--to VALUE", absent="one turn more"
-    )
-    duration: Duration = Field(
-        default=1.0, description="duration of the motion", absent="that of the machine, 1 s with --drive"
-    )
+    end: Maybe[Way] = Field("last value of this coordinate", default=None, option="--to VALUE", absent="one turn more")
+    duration: Duration = Field("duration of the motion", default=1.0, absent="that of the machine, 1 s with --drive")
     positions: Maybe[Positions] = Field(
-        default=None, description="number of positions, both ends included", absent=FEWEST_POSITIONS
+        "number of positions, both ends included", default=None, absent=FEWEST_POSITIONS
     )
-    coordinates: OfStatics = Field(default="auto", description="coordinates of the equations")
+    coordinates: OfStatics = Field("coordinates of the equations", default="auto")
 
     @property
     def step(self) -> float:
@@ -207,33 +188,22 @@ class StaticsSettings(Checked):
     """Settings of statics. Duration 0: the equilibrium at t = 0 alone."""
 
     duration: Time = Field(
-        default=1.0, description="last time of the loads and drivers; 0: only t = 0", absent="that of the machine"
+        "last time of the loads and drivers; 0: only t = 0", default=1.0, absent="that of the machine"
     )
-    step: Maybe[Duration] = Field(
-        default=None, description="time between two states", absent="a twentieth of the duration"
-    )
-    arc_length: bool = Field(
-        default=False, description="path of equilibria through limit points, where time turns back"
-    )
+    step: Maybe[Duration] = Field("time between two states", default=None, absent="a twentieth of the duration")
+    arc_length: bool = Field("path of equilibria through limit points, where time turns back", default=False)
     tolerance: Annotated[OneNumber, Between("1e-14", "1e-2")] = Field(
-        default=1e-10,
-        description="largest last correction of Newton's method, in lengths of the machine and in radians",
+        "largest last correction of Newton's method, in lengths of the machine and in radians", default=1e-10
     )
     most_iterations: Annotated[Given[int, int, int | str], Between("2", "1000")] = Field(
-        default=25, description="limit of Newton iterations for a state"
+        "limit of Newton iterations for a state", default=25
     )
-    line_search: bool = Field(
-        default=True, description="shortening of Newton steps that come no nearer", option="--no-line-search"
-    )
-    modes: Modes = Field(default=0, description="number of natural frequencies and modes about every state")
-    buckling: Modes = Field(
-        default=0, description="number of linearised buckling loads, from the first and the last state"
-    )
-    coordinates: OfStatics = Field(
-        default="auto", description="coordinates of the equations", absent="those of the machine"
-    )
+    line_search: bool = Field("shortening of Newton steps that come no nearer", default=True, option="--no-line-search")
+    modes: Modes = Field("number of natural frequencies and modes about every state", default=0)
+    buckling: Modes = Field("number of linearised buckling loads, from the first and the last state", default=0)
+    coordinates: OfStatics = Field("coordinates of the equations", default="auto", absent="those of the machine")
     verify: bool = Field(
-        default=True, description="states with other elements of beams, to estimate their error", option="--no-verify"
+        "states with other elements of beams, to estimate their error", default=True, option="--no-verify"
     )
 
     @property

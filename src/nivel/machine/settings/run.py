@@ -34,7 +34,7 @@ class Baumgarte(Record):
     alpha: Maybe[Rate] = Field(default=None)
     beta: Maybe[Rate] = Field(default=None)
     rows: Given[dict[str, RowFeedback], Mapping[str, RowFeedback], Mapping[str, Any]] = Field(
-        default={}, description="joint, or row: its own `alpha` and `beta`"
+        "joint, or row: its own `alpha` and `beta`", default={}
     )
 
     @property
@@ -67,7 +67,7 @@ class Penalty(Record):
     iterations: Annotated[Whole, Field(ge=1, le=1000)] = 30
     tolerance: Tolerance = 1e-12
     rows: Given[dict[str, RowPenalty], Mapping[str, RowPenalty], Mapping[str, Any]] = Field(
-        default={}, description="joint, or row: its own `factor` or `alpha`, `omega` and `mu`"
+        "joint, or row: its own `factor` or `alpha`, `omega` and `mu`", default={}
     )
 
 
@@ -82,7 +82,7 @@ class Corrector(Record):
     iteration: Literal["functional", "newton"] | None = None
     tolerance: Tolerance = 1e-10
     most_iterations: Annotated[Whole, Field(ge=1, le=1000)] = 50
-    matrix: Literal["kept", "full"] = Field(default="kept", description="of newmark, hht and generalised-alpha")
+    matrix: Literal["kept", "full"] = Field("of newmark, hht and generalised-alpha", default="kept")
 
 
 class Newmark(Record):
@@ -102,7 +102,7 @@ class GeneralisedAlpha(Record):
     """Damping of generalised-alpha: what is left of a vibration far above the step's frequency after one step, 0 … 1."""
 
     spectral_radius: Annotated[Real, Field(ge=0.0, le=1.0)] | None = Field(
-        default=None, description="absent, 0.8 with fixed steps and 0.6 with chosen ones"
+        "absent, 0.8 with fixed steps and 0.6 with chosen ones", default=None
     )
 
 
@@ -119,61 +119,48 @@ class SimulationSettings(Checked):
 
     where_given: ClassVar[frozenset[str]] = frozenset({"integrator", "step", "tolerance"})
 
-    duration: Duration = Field(default=1.0, description="simulated time, e.g. 8 or '8 s'")
-    step: Duration = Field(
-        default=1e-3, description="time step, e.g. '1 ms'; first step of integrators that choose their steps"
-    )
+    duration: Duration = Field("simulated time, e.g. 8 or '8 s'", default=1.0)
+    step: Duration = Field("time step, e.g. '1 ms'; first step of integrators that choose their steps", default=1e-3)
     output_interval: Maybe[Duration] = Field(
-        default=None,
-        description="time between frames; with a fixed step a multiple of it",
-        absent="up to 1000 intervals",
+        "time between frames; with a fixed step a multiple of it", default=None, absent="up to 1000 intervals"
     )
-    integrator: OneRecord[methods.Integrator] = Field(
-        default="rk4", description="time integration method", absent="by the machine"
-    )
-    formulation: methods.Formulation = Field(default="newton-euler", description="equations of motion")
-    coordinates: methods.Coordinates = Field(default="auto", description="coordinates of the equations")
-    rotations: methods.Rotations = Field(default="euler-parameters", description="rotation coordinates of lagrange")
+    integrator: OneRecord[methods.Integrator] = Field("time integration method", default="rk4", absent="by the machine")
+    formulation: methods.Formulation = Field("equations of motion", default="newton-euler")
+    coordinates: methods.Coordinates = Field("coordinates of the equations", default="auto")
+    rotations: methods.Rotations = Field("rotation coordinates of lagrange", default="euler-parameters")
     cut: ManyNames[str] = Field(
+        "joints that close loops: they stay constraints in relative coordinates",
         default=(),
-        description="joints that close loops: they stay constraints in relative coordinates",
         option="--cut JOINTS",
         absent="chosen automatically",
     )
     independent: ManyNames[str] = Field(
+        "velocities that independent coordinates keep as unknowns, e.g. crank.about_z",
         default=(),
-        description="velocities that independent coordinates keep as unknowns, e.g. crank.about_z",
         option="--independent NAMES",
         absent="chosen automatically",
     )
-    stabilisation: methods.Stabilisation = Field(default="direct", description="constraint stabilisation")
-    start: methods.Start = Field(
-        default="as-given", description="initial state: as assembled, or the equilibrium at rest"
-    )
+    stabilisation: methods.Stabilisation = Field("constraint stabilisation", default="direct")
+    start: methods.Start = Field("initial state: as assembled, or the equilibrium at rest", default="as-given")
     free: ManyNames[CoordinateReference] = Field(
-        default=(), description="joint coordinates without stiffness that an equilibrium leaves where they are placed"
+        "joint coordinates without stiffness that an equilibrium leaves where they are placed", default=()
     )
     step_control: methods.StepControl = Field(
-        default="own", description="steps fixed, or chosen by their error; own: as the integrator does"
+        "steps fixed, or chosen by their error; own: as the integrator does", default="own"
     )
     tolerance: Tolerance = Field(
-        default=1e-6,
-        description="relative tolerance of the motion, of chosen steps; 1e-8 where no integrator is named",
+        "relative tolerance of the motion, of chosen steps; 1e-8 where no integrator is named", default=1e-6
     )
     largest_step: Maybe[Duration] = Field(
-        default=None, description="longest step of integrators that choose their steps", absent="the duration"
+        "longest step of integrators that choose their steps", default=None, absent="the duration"
     )
-    corrector: OneRecord[Corrector] = Field(default=Corrector(), description="iteration of implicit methods")
-    newmark: OneRecord[Newmark] = Field(default=Newmark(), description="constants of newmark")
-    hht: OneRecord[HHT] = Field(default=HHT(), description="damping of hht")
-    generalised_alpha: OneRecord[GeneralisedAlpha] = Field(
-        default=GeneralisedAlpha(), description="damping of generalised-alpha"
-    )
-    penalty: OneRecord[Penalty] = Field(default=Penalty(), description="of penalty and augmented-lagrangian")
+    corrector: OneRecord[Corrector] = Field("iteration of implicit methods", default=Corrector())
+    newmark: OneRecord[Newmark] = Field("constants of newmark", default=Newmark())
+    hht: OneRecord[HHT] = Field("damping of hht", default=HHT())
+    generalised_alpha: OneRecord[GeneralisedAlpha] = Field("damping of generalised-alpha", default=GeneralisedAlpha())
+    penalty: OneRecord[Penalty] = Field("of penalty and augmented-lagrangian", default=Penalty())
     baumgarte: Maybe[OneRecord[Baumgarte]] = Field(
-        default=None,
-        description="coefficients in 1/s; need the stabilisation baumgarte",
-        absent="from the step",
+        "coefficients in 1/s; need the stabilisation baumgarte", default=None, absent="from the step"
     )
 
     @field_validator("cut", "independent")
@@ -225,12 +212,11 @@ class AssemblySettings(Record):
     """What the assembly may do to close the joints."""
 
     largest_gap: Maybe[PositiveLength] = Field(
-        default=None,
-        description="by which joints may be open as given; absent, a tenth of the size of the machine",
+        "by which joints may be open as given; absent, a tenth of the size of the machine", default=None
     )
     parallel: Annotated[Angle, NotNegative] = Field(
+        "axes of joints that differ by no more, as placed, are taken as parallel: those of an export with six digits are",
         default=1e-6,
-        description="axes of joints that differ by no more, as placed, are taken as parallel: those of an export with six digits are",
     )
 
 

@@ -31,27 +31,23 @@ class SweepSettings(Record):
     tagged: ClassVar[Mapping[str, int]] = {"outputs": 2}
 
     combine: Annotated[Combination, BeforeValidator(_combination)] = Field(
+        "grid, every value with every other; rows, the first of all lists, the second of all; or a design between two bounds",
         default="grid",
-        description="grid, every value with every other; rows, the first of all lists, the second of all; or a design between two bounds",
     )
     samples: Count | None = Field(
-        default=None, description="number of variants of a Latin hypercube between two bounds, or over distributions"
+        "number of variants of a Latin hypercube between two bounds, or over distributions", default=None
     )
-    seed: Whole = Field(default=0, description="seed of the random numbers of samples")
-    save: Names = Field(default=(), description="names of results", absent="all joint coordinates and sensors")
-    design: Drawn = Field(default="latin-hypercube", description="how samples are drawn")
-    analysis: Analysis = Field(default="run", description="what is computed of each variant")
-    analysis_settings: Mapping[str, Any] = Field(default={}, description="settings of an analysis other than a run")
-    outputs: Mapping[str, Output] = Field(default={}, description="numbers of each variant, by name")
-    time_limit: Maybe[Duration] = Field(default=None, description="longest computing time of a variant", absent="none")
-    scheduler: str = Field(
-        default="", description="address of the scheduler of a Dask cluster that computes", absent="none"
-    )
-    processes: Count | None = Field(
-        default=None, description="number of processes", absent="as many as there are processors"
-    )
+    seed: Whole = Field("seed of the random numbers of samples", default=0)
+    save: Names = Field("names of results", default=(), absent="all joint coordinates and sensors")
+    design: Drawn = Field("how samples are drawn", default="latin-hypercube")
+    analysis: Analysis = Field("what is computed of each variant", default="run")
+    analysis_settings: Mapping[str, Any] = Field("settings of an analysis other than a run", default={})
+    outputs: Mapping[str, Output] = Field("numbers of each variant, by name", default={})
+    time_limit: Maybe[Duration] = Field("longest computing time of a variant", default=None, absent="none")
+    scheduler: str = Field("address of the scheduler of a Dask cluster that computes", default="", absent="none")
+    processes: Count | None = Field("number of processes", default=None, absent="as many as there are processors")
     verify: bool = Field(
-        default=False, description="a second run beside each variant, to estimate its error", absent="not verified"
+        "a second run beside each variant, to estimate its error", default=False, absent="not verified"
     )
 
 
@@ -86,14 +82,12 @@ Several = Annotated[tuple[Word, ...] | None, BeforeValidator(_listed)]
 class Axes(Record):
     """The words, steps [s] and tolerances of a grid. Where an axis is None, the machine's own setting is taken."""
 
-    integrators: Several[methods.Integrator] = Field(default=None, description="time integration method")
-    formulations: Several[methods.Formulation] = Field(default=None, description="equations of motion")
-    coordinates: Several[methods.Coordinates] = Field(default=None, description="coordinates of the equations")
-    rotations: Several[methods.Rotations] = Field(default=None, description="rotation coordinates of lagrange")
-    stabilisations: Several[methods.Stabilisation] = Field(default=None, description="constraint stabilisation")
+    integrators: Several[methods.Integrator] = Field("time integration method", default=None)
+    formulations: Several[methods.Formulation] = Field("equations of motion", default=None)
+    coordinates: Several[methods.Coordinates] = Field("coordinates of the equations", default=None)
+    rotations: Several[methods.Rotations] = Field("rotation coordinates of lagrange", default=None)
+    stabilisations: Several[methods.Stabilisation] = Field("constraint stabilisation", default=None)
     steps: Given[Several[Duration], Several[float], Any] = Field(
-        default=None, description="steps of integrators with a fixed step, e.g. 1ms,2ms"
+        "steps of integrators with a fixed step, e.g. 1ms,2ms", default=None
     )
-    tolerances: Several[Tolerance] = Field(
-        default=None, description="tolerances of integrators that choose their steps"
-    )
+    tolerances: Several[Tolerance] = Field("tolerances of integrators that choose their steps", default=None)

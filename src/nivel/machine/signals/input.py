@@ -39,11 +39,9 @@ class Gamepad(Checked):
 
     axis: Annotated[Whole, Field(ge=0, le=31)] | None = None
     button: Annotated[Whole, Field(ge=0, le=31)] | None = None
-    reverse: Truth = Field(default=False, description="the other way round")
-    dead_zone: Annotated[Real, Field(ge=0.0, lt=1.0)] = Field(default=0.08, description="share of the way at rest")
-    exponent: Annotated[Real, Field(ge=1.0, le=10.0)] = Field(
-        default=1.0, description="1: proportional; more: finer near rest"
-    )
+    reverse: Truth = Field("the other way round", default=False)
+    dead_zone: Annotated[Real, Field(ge=0.0, lt=1.0)] = Field("share of the way at rest", default=0.08)
+    exponent: Annotated[Real, Field(ge=1.0, le=10.0)] = Field("1: proportional; more: finer near rest", default=1.0)
 
     def problems(self) -> Iterator[Problem]:
         if (self.axis is None) == (self.button is None):
@@ -53,8 +51,8 @@ class Gamepad(Checked):
 class Keys(Checked):
     """The keys of a keyboard that raise and lower an input while they are held down."""
 
-    raise_: Key | None = Field(default=None, key="raise", description="key that moves the input to its upper end")
-    lower: Key | None = Field(default=None, description="key that moves the input to its lower end")
+    raise_: Key | None = Field("key that moves the input to its upper end", default=None, key="raise")
+    lower: Key | None = Field("key that moves the input to its lower end", default=None)
 
     def problems(self) -> Iterator[Problem]:
         if self.lower is not None and self.lower == self.raise_:
@@ -71,25 +69,25 @@ class Input(Checked):
 
     name: Name
     range: Annotated[TwoNumbers[Number], BeforeValidator(listed)] = Field(
-        default=(-1.0, 1.0), description="least and greatest value"
+        "least and greatest value", default=(-1.0, 1.0)
     )
     rest: Maybe[Number] = Field(
-        default=None, description="value of an untouched input; default 0, or the end of the range nearest to it"
+        "value of an untouched input; default 0, or the end of the range nearest to it", default=None
     )
     rate: Maybe[Annotated[OneNumber, Quantity(ANY, positive=True)]] = Field(
-        default=None, description="greatest change per second; absent, no limit"
+        "greatest change per second; absent, no limit", default=None
     )
-    units: str = Field(default="", description="SI unit of the value, for people")
-    label: str = Field(default="", description="what the page calls it; default follows from the name")
-    description: str = Field(default="", description="what it moves, for the operator")
+    units: str = Field("SI unit of the value, for people", default="")
+    label: str = Field("what the page calls it; default follows from the name", default="")
+    description: str = Field("what it moves, for the operator", default="")
     signal: Maybe[Annotated[OneFunction, varying(ANY)]] = Field(
-        default=None, description="value in runs without an operator: a number, or a table of time"
+        "value in runs without an operator: a number, or a table of time", default=None
     )
-    hold: Truth = Field(default=False, description="whether it stays where it is left, and does not go back to rest")
-    control: Literal["slider", "button"] = Field(default="slider", description="what the page shows for it")
-    stick: Stick | None = Field(default=None, description="axis of a stick on the page that moves it as well")
-    keys: Maybe[OneRecord[Keys]] = Field(default=None, description="keys that raise and lower it")
-    gamepad: Maybe[OneRecord[Gamepad]] = Field(default=None, description="axis or button of a gamepad")
+    hold: Truth = Field("whether it stays where it is left, and does not go back to rest", default=False)
+    control: Literal["slider", "button"] = Field("what the page shows for it", default="slider")
+    stick: Stick | None = Field("axis of a stick on the page that moves it as well", default=None)
+    keys: Maybe[OneRecord[Keys]] = Field("keys that raise and lower it", default=None)
+    gamepad: Maybe[OneRecord[Gamepad]] = Field("axis or button of a gamepad", default=None)
 
     @property
     def rest_value(self) -> float:
@@ -183,12 +181,10 @@ class Event(Checked):
 
     name: Name
     when: Annotated[Measured, BeforeValidator(_passes_zero)] = Field(
-        description="expression of `time` and symbols; the event is where it passes zero"
+        "expression of `time` and symbols; the event is where it passes zero"
     )
-    direction: Literal["rising", "falling", "both"] = Field(
-        default="both", description="of the value where it passes zero"
-    )
-    stop: Truth = Field(default=False, description="whether the run ends at the event")
+    direction: Literal["rising", "falling", "both"] = Field("of the value where it passes zero", default="both")
+    stop: Truth = Field("whether the run ends at the event", default=False)
 
     def problems(self) -> Iterator[Problem]:
         when = self.when
@@ -213,19 +209,15 @@ class State(Checked):
     collection: ClassVar[str] = "states"
 
     name: Name
-    start: Annotated[OneNumber, Quantity(ANY)] = Field(
-        default=0.0, description="value at t = 0, before the first sample"
-    )
-    rate: Maybe[Measured] = Field(default=None, description="ẋ per second: expression of `time` and symbols")
-    update: Maybe[Measured] = Field(
-        default=None, description="value after each sample: expression of `time` and symbols"
-    )
-    every: Maybe[Duration] = Field(default=None, description="time between samples; the first one is at t = 0")
-    event: Name | None = Field(default=None, description="event at which a sample is taken")
+    start: Annotated[OneNumber, Quantity(ANY)] = Field("value at t = 0, before the first sample", default=0.0)
+    rate: Maybe[Measured] = Field("ẋ per second: expression of `time` and symbols", default=None)
+    update: Maybe[Measured] = Field("value after each sample: expression of `time` and symbols", default=None)
+    every: Maybe[Duration] = Field("time between samples; the first one is at t = 0", default=None)
+    event: Name | None = Field("event at which a sample is taken", default=None)
     scale: Maybe[Annotated[OneNumber, Quantity(ANY, positive=True)]] = Field(
-        default=None, description="size of values that matter, by which errors are measured; default |start|, or 1"
+        "size of values that matter, by which errors are measured; default |start|, or 1", default=None
     )
-    units: str = Field(default="", description="SI unit of the value, for people")
+    units: str = Field("SI unit of the value, for people", default="")
 
     @property
     def size(self) -> float:

@@ -95,27 +95,25 @@ class Sensor(Checked):
     collection: ClassVar[str] = "sensors"
 
     name: Name
-    marker: Name | None = Field(default=None, description="whose motion is measured")
-    coordinate: CoordinateReference | None = Field(default=None, description="joint coordinate")
-    distance: Maybe[TwoMarkers] = Field(default=None, description="of the points of two markers")
-    angle: Maybe[TwoMarkers] = Field(default=None, description="of the second marker about the z axis of the first")
-    force: Name | None = Field(default=None, description="of which an output is measured")
-    value: Maybe[Measured] = Field(default=None, description="expression of `time` and symbols")
-    quantity: _Word | None = Field(default=None, description="what is measured of a marker, a coordinate or a force")
+    marker: Name | None = Field("whose motion is measured", default=None)
+    coordinate: CoordinateReference | None = Field("joint coordinate", default=None)
+    distance: Maybe[TwoMarkers] = Field("of the points of two markers", default=None)
+    angle: Maybe[TwoMarkers] = Field("of the second marker about the z axis of the first", default=None)
+    force: Name | None = Field("of which an output is measured", default=None)
+    value: Maybe[Measured] = Field("expression of `time` and symbols", default=None)
+    quantity: _Word | None = Field("what is measured of a marker, a coordinate or a force", default=None)
     relative_to: Name | None = Field(
-        default=None, description="marker from which, and in whose axes, a marker is seen; default the global frame"
+        "marker from which, and in whose axes, a marker is seen; default the global frame", default=None
     )
     sequence: AxisSequence | None = Field(
-        default=None, description="of `euler_angles`: the axes of the three turns, each about an axis as turned so far"
+        "of `euler_angles`: the axes of the three turns, each about an axis as turned so far", default=None
     )
-    units: str = Field(default="", description="of a `value`, for people")
-    label: str = Field(default="", description="what a gauge of the page calls it; default follows from the name")
+    units: str = Field("of a `value`, for people", default="")
+    label: str = Field("what a gauge of the page calls it; default follows from the name", default="")
     range: Annotated[tuple[ShownNumber, ShownNumber], BeforeValidator(listed)] | None = Field(
-        default=None, description="ends of the scale of its gauge"
+        "ends of the scale of its gauge", default=None
     )
-    limit: ShownNumber | None = Field(
-        default=None, description="magnitude beyond which its gauge warns, greater than zero"
-    )
+    limit: ShownNumber | None = Field("magnitude beyond which its gauge warns, greater than zero", default=None)
 
     @property
     def form(self) -> str:

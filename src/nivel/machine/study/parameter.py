@@ -28,10 +28,10 @@ class Values(Checked):
     """Values one by one: numbers, texts with units, words, or a column of a table."""
 
     type: Literal["values"] = "values"
-    values: Annotated[tuple[Any, ...], BeforeValidator(listed)] = Field(default=(), description="the values")
-    csv: str = Field(default="", description="table (CSV, MAT, Parquet) with the values, beside the study file")
-    column: str = Field(default="", description="column of this table")
-    units: str = Field(default="", description="unit of the column", absent="that of its heading, else SI")
+    values: Annotated[tuple[Any, ...], BeforeValidator(listed)] = Field("the values", default=())
+    csv: str = Field("table (CSV, MAT, Parquet) with the values, beside the study file", default="")
+    column: str = Field("column of this table", default="")
+    units: str = Field("unit of the column", default="", absent="that of its heading, else SI")
 
     def problems(self) -> Iterator[Problem]:
         """No values, or values of different kinds."""
@@ -87,12 +87,10 @@ class Range(Between):
     """Evenly spaced values from one to another; any value between them where variants are drawn."""
 
     type: Literal["range"]
-    low: AnyQuantity = Field(key="from", description="first value")
-    high: AnyQuantity = Field(key="to", description="last value")
-    count: Count | None = Field(default=None, description="number of values, both ends included")
-    spacing: Literal["linear", "logarithmic"] = Field(
-        default="linear", description="equal differences, or equal ratios"
-    )
+    low: AnyQuantity = Field("first value", key="from")
+    high: AnyQuantity = Field("last value", key="to")
+    count: Count | None = Field("number of values, both ends included", default=None)
+    spacing: Literal["linear", "logarithmic"] = Field("equal differences, or equal ratios", default="linear")
 
     def problems(self) -> Iterator[Problem]:
         """As of all bounds, and ratios of numbers that are not positive."""
@@ -106,8 +104,8 @@ class Uniform(Between):
     """Every value between two bounds with the same probability."""
 
     type: Literal["uniform"]
-    low: AnyQuantity = Field(key="from", description="least value")
-    high: AnyQuantity = Field(key="to", description="greatest value")
+    low: AnyQuantity = Field("least value", key="from")
+    high: AnyQuantity = Field("greatest value", key="to")
 
 
 class Triangular(Between):
@@ -115,9 +113,9 @@ class Triangular(Between):
 
     quantities: ClassVar[tuple[str, ...]] = ("low", "peak", "high")
     type: Literal["triangular"]
-    low: AnyQuantity = Field(key="from", description="least value")
-    high: AnyQuantity = Field(key="to", description="greatest value")
-    peak: AnyQuantity | None = Field(default=None, description="most probable value", absent="halfway")
+    low: AnyQuantity = Field("least value", key="from")
+    high: AnyQuantity = Field("greatest value", key="to")
+    peak: AnyQuantity | None = Field("most probable value", default=None, absent="halfway")
 
     def problems(self) -> Iterator[Problem]:
         """As of all bounds, and a peak outside of them."""
@@ -134,10 +132,10 @@ class Normal(Between):
 
     quantities: ClassVar[tuple[str, ...]] = ("mean", "deviation", "low", "high")
     type: Literal["normal"]
-    mean: AnyQuantity | None = Field(default=None, description="mean", absent=OF_FILE)
-    deviation: AnyQuantity = Field(description="standard deviation")
-    low: AnyQuantity | None = Field(default=None, key="from", description="least value", absent="none")
-    high: AnyQuantity | None = Field(default=None, key="to", description="greatest value", absent="none")
+    mean: AnyQuantity | None = Field("mean", default=None, absent=OF_FILE)
+    deviation: AnyQuantity = Field("standard deviation")
+    low: AnyQuantity | None = Field("least value", default=None, key="from", absent="none")
+    high: AnyQuantity | None = Field("greatest value", default=None, key="to", absent="none")
 
     def problems(self) -> Iterator[Problem]:
         """As of all bounds, and a deviation that is none."""
@@ -165,13 +163,12 @@ class Tolerance(Between):
 
     quantities: ClassVar[tuple[str, ...]] = ("nominal", "below", "above")
     type: Literal["tolerance"]
-    nominal: AnyQuantity | None = Field(default=None, description="nominal value", absent=OF_FILE)
+    nominal: AnyQuantity | None = Field("nominal value", default=None, absent=OF_FILE)
     tolerance: Annotated[tuple[AnyQuantity, AnyQuantity] | AnyQuantity, BeforeValidator(_one_or_two)] = Field(
-        description="greatest deviation from it, or [below, above]"
+        "greatest deviation from it, or [below, above]"
     )
     distribution: Literal["normal", "uniform", "triangular"] = Field(
-        default="normal",
-        description="distribution in the tolerance; normal: three standard deviations, cut off at the tolerance",
+        "distribution in the tolerance; normal: three standard deviations, cut off at the tolerance", default="normal"
     )
 
     @property
@@ -258,8 +255,8 @@ CALL: Final = re.compile(r"(\w+)\((.+)\)")
 class StudyOutput(Checked):
     """A number of each variant. Limits are kept as they were written."""
 
-    at_least: AnyQuantity | None = Field(default=None, description="least value within limits", absent="none")
-    at_most: AnyQuantity | None = Field(default=None, description="greatest value within limits", absent="none")
+    at_least: AnyQuantity | None = Field("least value within limits", default=None, absent="none")
+    at_most: AnyQuantity | None = Field("greatest value within limits", default=None, absent="none")
 
     def problems(self) -> Iterator[Problem]:
         """Limits of different kinds, and limits between which there is nothing."""
@@ -282,9 +279,9 @@ class Reduced(StudyOutput):
     """One number of a history: largest, smallest, largest magnitude, root of the mean square, mean, or integral over time."""
 
     type: Reduction
-    of: str = Field(description=NAME)
-    start: Maybe[Moment] = Field(default=None, key="from", description="begin", absent="the begin of the result")
-    end: Maybe[Moment] = Field(default=None, key="to", description="end", absent="the end of the result")
+    of: str = Field(NAME)
+    start: Maybe[Moment] = Field("begin", default=None, key="from", absent="the begin of the result")
+    end: Maybe[Moment] = Field("end", default=None, key="to", absent="the end of the result")
 
     def problems(self) -> Iterator[Problem]:
         """As of all outputs, and an end before the begin."""
@@ -297,48 +294,48 @@ class FinalValue(StudyOutput):
     """The last value of a history."""
 
     type: Literal["final"]
-    of: str = Field(description=NAME)
+    of: str = Field(NAME)
 
 
 class AtTime(StudyOutput):
     """The value of a history at a time, between two frames by a cubic."""
 
     type: Literal["at-time"]
-    of: str = Field(description=NAME)
-    time: Moment = Field(description="the time")
+    of: str = Field(NAME)
+    time: Moment = Field("the time")
 
 
 class AtEvent(StudyOutput):
     """The value of a history where an event comes for the first time."""
 
     type: Literal["at-event"]
-    of: str = Field(description=NAME)
-    event: str = Field(description="name of an event")
+    of: str = Field(NAME)
+    event: str = Field("name of an event")
 
 
 class EventTime(StudyOutput):
     """The time at which an event comes for the first time."""
 
     type: Literal["event-time"]
-    event: str = Field(description="name of an event")
+    event: str = Field("name of an event")
 
 
 class ScalarOutput(StudyOutput):
     """A number of an analysis that has no history: of a linear model, as `mode.1.frequency`, or of statics, as `buckling.1`."""
 
     type: Literal["value"]
-    of: str = Field(description="name of a number, such as mode.1.frequency or stable")
+    of: str = Field("name of a number, such as mode.1.frequency or stable")
 
 
 class PythonOutput(StudyOutput):
     """What a Python function returns for a result, in SI units."""
 
     type: Literal["python"]
-    python: str = Field(default="", description="file of the function, beside the study file")
-    source: str = Field(default="", description="text of such a file, in place of `python`")
-    file: str = Field(default="", description="name of the file that messages show")
-    function: str = Field(description="its name; it takes the result and returns a number")
-    units: str = Field(default="", description="unit of the number, for tables and plots")
+    python: str = Field("file of the function, beside the study file", default="")
+    source: str = Field("text of such a file, in place of `python`", default="")
+    file: str = Field("name of the file that messages show", default="")
+    function: str = Field("its name; it takes the result and returns a number")
+    units: str = Field("unit of the number, for tables and plots", default="")
 
     def problems(self) -> Iterator[Problem]:
         """As of all outputs, and no function."""

@@ -32,27 +32,25 @@ def _positive(values: Any) -> Any:
 class Search(Checked):
     """What searches have in common."""
 
-    starts: Count = Field(default=1, description="number of starts: the machine as it is, then others that are drawn")
-    seed: Whole = Field(default=0, description="seed of the starts")
-    iterations: Count = Field(default=100, description="most iterations of each start")
+    starts: Count = Field("number of starts: the machine as it is, then others that are drawn", default=1)
+    seed: Whole = Field("seed of the starts", default=0)
+    iterations: Count = Field("most iterations of each start", default=100)
 
 
 class OptimiseSearch(Search):
     """The parameters with the least output. Limits of outputs are kept."""
 
-    output: str = Field(description="name of the output that is to be least")
-    maximise: bool = Field(default=False, description="it is to be largest instead")
-    method: SearchMethod = Field(default="SLSQP", description="method of SciPy; CMA-ES of pycma, or TPE of Optuna")
+    output: str = Field("name of the output that is to be least")
+    maximise: bool = Field("it is to be largest instead", default=False)
+    method: SearchMethod = Field("method of SciPy; CMA-ES of pycma, or TPE of Optuna", default="SLSQP")
 
 
 class IdentifySearch(Search):
     """The parameters that explain measurements, by least squares."""
 
-    data: str = Field(description="table (CSV, MAT, Parquet) with a column `time` and columns with names of results")
+    data: str = Field("table (CSV, MAT, Parquet) with a column `time` and columns with names of results")
     deviations: Annotated[Mapping[str, float], BeforeValidator(_positive)] = Field(
-        default={},
-        description="standard deviation of the noise of each signal, in SI units",
-        absent="from what is left",
+        "standard deviation of the noise of each signal, in SI units", default={}, absent="from what is left"
     )
 
 
@@ -80,45 +78,42 @@ class StudyRecord(Checked):
 
     tagged: ClassVar[Mapping[str, int]] = {"parameters": 2, "outputs": 2}
 
-    name: str = Field(default="study", description="name of the study", absent="that of its file")
-    description: str = Field(default="", description="what the study is for")
-    machine: str = Field(description="machine file, beside the study file")
+    name: str = Field("name of the study", default="study", absent="that of its file")
+    description: str = Field("what the study is for", default="")
+    machine: str = Field("machine file, beside the study file")
     values: Mapping[str, Any] = Field(
-        default={}, key="set", description="values of the machine file by path that all variants have"
+        "values of the machine file by path that all variants have", default={}, key="set"
     )
     parameters: Mapping[str, StudyParameter] = Field(
-        default={}, description="what varies, by path in the machine file, such as bodies.crank.mass"
+        "what varies, by path in the machine file, such as bodies.crank.mass", default={}
     )
     design: Design = Field(
-        default="grid",
-        description="grid: every value with every other; rows: the first of all lists, the second of all; planned with two, three or five "
+        "grid: every value with every other; rows: the first of all lists, the second of all; planned with two, three or five "
         "levels between bounds: a fraction of all corners, Box and Behnken's, central composite; or drawn at random, "
         "from a Latin hypercube, from Sobol's sequence, or for Sobol indices",
+        default="grid",
     )
-    samples: Count | None = Field(
-        default=None, description="number of variants that are drawn; for Sobol indices of base samples"
-    )
-    seed: Whole = Field(default=0, description="seed of what is drawn")
-    analysis: Analysis = Field(default="run", description="what is computed of each variant")
+    samples: Count | None = Field("number of variants that are drawn; for Sobol indices of base samples", default=None)
+    seed: Whole = Field("seed of what is drawn", default=0)
+    analysis: Analysis = Field("what is computed of each variant", default="run")
     settings: Mapping[str, Any] = Field(
-        default={}, description="settings of the analysis, as the options of its command, with _ for -"
+        "settings of the analysis, as the options of its command, with _ for -", default={}
     )
     outputs: Annotated[Mapping[str, Output], BeforeValidator(_named)] = Field(
-        default={}, description="numbers of each variant, by name"
+        "numbers of each variant, by name", default={}
     )
-    save: Names = Field(default=(), description="names of results of which the whole history is kept")
-    verify: bool = Field(default=False, description="a second run beside each variant, to estimate its error")
+    save: Names = Field("names of results of which the whole history is kept", default=())
+    verify: bool = Field("a second run beside each variant, to estimate its error", default=False)
     optimise: OptimiseSearch | None = Field(
-        default=None, description="the search of `nivel optimise`: for the least output", absent="none"
+        "the search of `nivel optimise`: for the least output", default=None, absent="none"
     )
     identify: IdentifySearch | None = Field(
-        default=None, description="the search of `nivel identify`: for what explains measurements", absent="none"
+        "the search of `nivel identify`: for what explains measurements", default=None, absent="none"
     )
     judge: bool = Field(
-        default=True,
-        description="a trust report of each variant; without it a run costs little more than its steps",
+        "a trust report of each variant; without it a run costs little more than its steps", default=True
     )
-    time_limit: Maybe[Duration] = Field(default=None, description="longest computing time of a variant", absent="none")
+    time_limit: Maybe[Duration] = Field("longest computing time of a variant", default=None, absent="none")
 
     def problems(self) -> Iterator[Problem]:
         """Designs that do not go with what varies."""

@@ -9,8 +9,6 @@
 Names are loaded when they are used: importing `nivel` costs nothing.
 """
 
-from __future__ import annotations
-
 import sys
 from importlib import import_module
 from typing import Any

@@ -1,7 +1,5 @@
 """Libraries that an installation may lack: what brings them, and the refusal of what needs them, before anything else is done."""
 
-from __future__ import annotations
-
 import sys
 from importlib import import_module
 from importlib.util import find_spec

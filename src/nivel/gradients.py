@@ -4,8 +4,6 @@ f = value_and_gradient(machine, "max(rod.position.y)", ["bodies.rod.mass", "para
 scipy.optimize.minimize(f, [2.0, 0.5], jac=True)
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any, Unpack
 

@@ -4,8 +4,6 @@ Nothing is imported, as a rope exists only where its module was. The stub of thi
 file.
 """
 
-from __future__ import annotations
-
 import sys
 from typing import Any, Final
 

@@ -8,8 +8,6 @@ A function that needs a heavy or optional module, or one that few runs need, wri
 A lower room asks for a function of a room above by its subject; `nivel/__init__.py`, which stands above all rooms, says where each stands.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import asdict, field, fields, is_dataclass, replace  # noqa: F401

@@ -1,7 +1,5 @@
 """Words of the settings that choose methods of a run. Imports nothing heavy, so that help can list them."""
 
-from __future__ import annotations
-
 from types import MappingProxyType
 from typing import Any, Final, Literal, get_args
 

@@ -1,7 +1,5 @@
 """Machines as programs without Python have them: image of the records, outputs, inputs, failures, and the machine code that they need."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Records as one block of memory that can be put anywhere: its words, and which of them are addresses."""
 
-from __future__ import annotations
-
 import ctypes
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence

@@ -5,8 +5,6 @@ stiffnesses, gains, limits and the like. What moves the start of the machine wou
 with its name. Where the machine lacks what a default of zero would multiply, it is that of other values, with the default put in.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from typing import Final, NamedTuple
 

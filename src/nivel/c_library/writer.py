@@ -1,7 +1,5 @@
 """The files of a C library: header, source, machine code, an example, and how they are built."""
 
-from __future__ import annotations
-
 import os
 import platform
 import re

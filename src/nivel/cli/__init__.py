@@ -1,7 +1,5 @@
 """The command `nivel`. Its sub-commands are modules that are imported when they are called, so that help is there at once."""
 
-from __future__ import annotations
-
 import gc
 import os
 import re

@@ -1,7 +1,5 @@
 """Commands of analyses: a machine, settings, files, progress, messages and exit codes. A command is then what is its own."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`nivel budget MACHINE`: what a step costs in real time, without running live."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import isnan
 from typing import Any

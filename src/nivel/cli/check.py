@@ -1,7 +1,5 @@
 """`nivel check MACHINE`: what the machine is, or everything that is wrong with it."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 

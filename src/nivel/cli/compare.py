@@ -1,7 +1,5 @@
 """`nivel compare MACHINE`: run all combinations of methods, hold them against a reference, say what each is worth."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any, Final
 

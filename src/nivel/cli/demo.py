@@ -1,7 +1,5 @@
 """`nivel demo`: a machine that comes with nivel, in real time in the browser."""
 
-from __future__ import annotations
-
 import click
 
 from nivel.demos import DEMOS, demo_file

@@ -1,7 +1,5 @@
 """`nivel explain RESULT`: how far a result can be trusted, and why."""
 
-from __future__ import annotations
-
 import click
 
 from nivel.cli.options import file_argument, json_option

@@ -1,8 +1,6 @@
 """`nivel export RESULT --csv [FILE]`, a result as a table; `nivel export MACHINE --c FOLDER`, `--fmu [FILE]` and `--page [FILE]`, a machine
 as a C library, as an FMU, or as a web page in which it lives."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 from typing import Any

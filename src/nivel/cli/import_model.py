@@ -1,7 +1,5 @@
 """`nivel import MODEL --out machine.yaml`: the model of another program as a machine file."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Literal
 

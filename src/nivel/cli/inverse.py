@@ -1,7 +1,5 @@
 """`nivel inverse MACHINE`: the efforts of actuators that make a machine follow a motion; data, a page, a summary."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click

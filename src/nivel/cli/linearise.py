@@ -1,7 +1,5 @@
 """`nivel linearise MACHINE`: eigenvalues, modes and the linear model about a state; data, a page, a summary."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """`nivel new NAME`: a commented machine file that runs."""
 
-from __future__ import annotations
-
 import json
 import os
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Options that several commands share, spelt the same everywhere."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`nivel reduce MODEL`: a finite-element model becomes a flexible body, and a report says what it is worth."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`nivel replay RECORDING`: a live run again, exactly, or by other methods."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """`nivel run MACHINE`: simulate, write the result and the report, say what happened."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Iterator, Sequence

@@ -1,8 +1,6 @@
 """Commands that search: `nivel optimise STUDY`, values of parameters with which an output is least within limits of others; `nivel identify
 STUDY`, those that explain measurements, and how certain they are. Each writes a data file and a report."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Sequence
 from math import isnan

@@ -1,7 +1,5 @@
 """`nivel statics MACHINE`: where a machine rests under its loads; a result file, a report beside it, a summary."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Final

@@ -1,7 +1,5 @@
 """`nivel stress RESULT`: where and when a flexible body of a run is stressed most, and how at chosen nodes."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`nivel warmup`: compile everything ahead of the first run."""
 
-from __future__ import annotations
-
 import time
 
 import click

@@ -1,7 +1,5 @@
 """The machines that come with nivel to be driven: `nivel demo NAME`."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Final
 

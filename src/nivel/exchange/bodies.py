@@ -1,7 +1,5 @@
 """Bodies of a mechanism: links that fixed joints connect become one, with a marker at each of the frames that were lumped."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any, Final
 

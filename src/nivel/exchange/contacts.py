@@ -4,8 +4,6 @@ URDF and SDF name no pairs: there solids of different models touch, and links of
 that a joint connects. A point whose surface has no stiffness sinks by SINK under the weight of the model, damped critically.
 """
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 import numpy as np

@@ -3,8 +3,6 @@
 Bodies are rigid in it: of flexible bodies and beams only what is drawn at their frames moves along. The scene is turned so that up is +Y.
 """
 
-from __future__ import annotations
-
 import json
 import struct
 from pathlib import Path

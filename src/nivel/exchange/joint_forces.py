@@ -1,7 +1,5 @@
 """Forces and parts at a joint coordinate: stops and friction of the joint, and dampers, springs, couplings, start values beside it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from typing import Any, Final

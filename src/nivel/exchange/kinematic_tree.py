@@ -2,8 +2,6 @@
 elementary motions between the two; joints that close loops stand beside it.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterator
 from typing import Final

@@ -3,8 +3,6 @@
 A mesh is read from folders that are allowed only: that of the model, packages beside it, and those that the user names.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Final

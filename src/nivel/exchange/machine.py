@@ -1,7 +1,5 @@
 """From a mechanism to the data of a machine file."""
 
-from __future__ import annotations
-
 import math
 from typing import Any, Final
 

@@ -4,8 +4,6 @@ MuJoCo compiles the model, with its defaults, replications and inertias of geome
 machine. Bodies are placed as in `qpos0`.
 """
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Iterator, Sequence
 from pathlib import Path

@@ -6,8 +6,6 @@ changes with the speed by b d/w. `damping` of a contact is this by the load: g/w
 free model, where that is more.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Final
 

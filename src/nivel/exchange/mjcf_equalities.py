@@ -3,8 +3,6 @@
 MuJoCo's own are soft: there a loop opens under load.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Final
 

@@ -4,8 +4,6 @@ A way along sites is a sum of measured distances, each divided as pulleys say, o
 around wheels, or with nothing but an upper limit, is a rope, which pulls and never pushes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """MJCF of the rigid part of a machine."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.joints.joint import Joint

@@ -1,7 +1,5 @@
 """Readers of models, chosen by the content of a file, its translation, and solids of a STEP file as bodies."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from functools import partial

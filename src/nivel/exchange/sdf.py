@@ -1,7 +1,5 @@
 """SDF: links and joints of a model, each with a pose relative to another frame; joints may close loops."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A model of another program as the data of a machine file, with the meshes that were made for it and the notes of its translation."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Iterable

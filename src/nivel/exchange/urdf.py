@@ -1,7 +1,5 @@
 """URDF: links and joints of a tree, each joint placed in the link before it."""
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 import numpy as np

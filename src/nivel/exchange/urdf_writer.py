@@ -1,7 +1,5 @@
 """URDF of the tree of a machine's rigid bodies."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.exchange.kinematic_tree import Branch, KinematicTree, Motion, kinematic_tree

@@ -4,8 +4,6 @@ A damaged file may crash such a library, or keep it busy for ever. That ends its
 answered waits a minute for the next file.
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """An entry of `assemblies:`: a part file that is placed, mirrored, given parameters, and whose elements get a prefix."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal

@@ -1,7 +1,5 @@
 """Files of bodies that a machine names: flexible bodies, and mass properties that another program wrote."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """Code that a machine file names: units of control in C or FMUs, and laws in Python, which are read for people who allow it only."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """Surfaces of COLLADA files (.dae, version 1.4 and 1.5): triangles and polygons of all geometries that the scene places."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -3,8 +3,6 @@
 The parts are those of CoACD (Wei and others 2022). They are kept in the user cache under a digest of the surface.
 """
 
-from __future__ import annotations
-
 import json
 from hashlib import sha256
 from itertools import combinations

@@ -1,7 +1,5 @@
 """Tables that stand in files, CSV, MAT or Parquet: a column of values over a column of times, each with its unit."""
 
-from __future__ import annotations
-
 import csv
 import io
 import re

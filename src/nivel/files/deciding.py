@@ -4,8 +4,6 @@ Numbers follow such a parameter by several formulas, of which a few values of it
 What decides while the machine runs, as `if(time > p, a, b)`, is none of these.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

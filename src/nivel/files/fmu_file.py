@@ -1,7 +1,5 @@
 """FMU files: what stands in the archive is checked, and its description is read. Nothing of it is loaded here."""
 
-from __future__ import annotations
-
 import io
 import lzma
 import stat

@@ -7,8 +7,6 @@
 What a force says itself goes before. A fault in a set is told once, where the set stands.
 """
 
-from __future__ import annotations
-
 import re
 import struct
 import zlib

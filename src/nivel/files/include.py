@@ -1,7 +1,5 @@
 """`include:` the sections of other files, as if they stood in this one."""
 
-from __future__ import annotations
-
 import re
 from typing import Annotated, Any, Final
 

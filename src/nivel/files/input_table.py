@@ -1,7 +1,5 @@
 """Tables of inputs in files of columns: `time`, and a column with the input's name, or one called `value`."""
 
-from __future__ import annotations
-
 import csv
 import re
 from collections.abc import Mapping

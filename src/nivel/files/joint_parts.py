@@ -6,8 +6,6 @@ on the motion of the bodies: gyroscopic moments of the rotor are left out, as th
 of the machine: no mass, list or export contains it. With backlash its gear is a shaft with play, and motors of the joint turn the rotor.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """Columns of binary tables: MATLAB's MAT files, Parquet files, and signals of recordings."""
 
-from __future__ import annotations
-
 import io
 import json
 import re

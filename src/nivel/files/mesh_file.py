@@ -1,7 +1,5 @@
 """`file:` of a mesh: STL (text or binary), OBJ, COLLADA (.dae) and glTF (.gltf, .glb) as vertices and triangles."""
 
-from __future__ import annotations
-
 import base64
 import json
 import struct

@@ -3,8 +3,6 @@
 PyYAML's own composer recurses in C without a limit, and deep nesting ends the process; this one stops at DEEPEST.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from functools import lru_cache

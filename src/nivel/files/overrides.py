@@ -1,7 +1,5 @@
 """Values set from outside the file: `--set bodies.crank.mass="22 kg"`."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from copy import deepcopy
 from difflib import get_close_matches

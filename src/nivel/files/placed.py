@@ -1,7 +1,5 @@
 """A part that is placed: every element of it turned, moved and mirrored, so that it moves as before, seen from there."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 

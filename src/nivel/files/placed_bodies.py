@@ -1,7 +1,5 @@
 """Bodies and joints of a part, placed: turned, moved, mirrored."""
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Any
 

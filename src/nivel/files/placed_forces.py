@@ -1,7 +1,5 @@
 """Forces of a part, placed: what is global is turned, what counts the other way in a mirror image changes its sign."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from typing import Any

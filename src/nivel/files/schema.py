@@ -1,7 +1,5 @@
 """The JSON schema of machine files, for editors that complete and check while one types."""
 
-from __future__ import annotations
-
 from copy import deepcopy
 from typing import Any
 

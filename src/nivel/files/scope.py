@@ -4,8 +4,6 @@ Every part that `assemblies:` names is a file read by itself, with parameters an
 placed and get their prefix (assembly.py), and join those of the file that uses it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path as FilePath
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """Solids of STEP files, read by gmsh (OpenCASCADE): names, exact volumes, centres and moments, and surfaces to draw."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache

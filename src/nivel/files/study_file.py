@@ -1,7 +1,5 @@
 """Study files: from YAML to a StudyRecord, with every fault and its place, and their JSON schema for editors."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from copy import deepcopy
 from pathlib import Path as FilePath

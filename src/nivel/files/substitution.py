@@ -4,8 +4,6 @@ A signal of the part is a linear combination of signals of the placed part. Expr
 those of one signal; arguments of Python functions only a signal as it is.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """Targets of output: what may not be written over, even where the user asks to replace files; files are written whole or not at all."""
 
-from __future__ import annotations
-
 import os
 import stat
 from collections.abc import Iterable, Iterator

@@ -4,8 +4,6 @@ Sizes, loads and stiffness of the file stand where the tyre has none of its own,
 and `#` begin comments, a key without a value is absent, rows of tables are counted and not used.
 """
 
-from __future__ import annotations
-
 import re
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """Values of a machine by path, such as ``bodies.crank.mass``: read, and set in a copy."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any

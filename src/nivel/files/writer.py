@@ -1,7 +1,5 @@
 """From records to a machine file."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from typing import Any

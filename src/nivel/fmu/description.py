@@ -1,7 +1,5 @@
 """The description of a unit, `modelDescription.xml`: its variables with units, and what it can do."""
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """The file of a unit: a zip archive of description, numbers, binaries and licences, the same for the same machine."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import shutil

@@ -1,7 +1,5 @@
 """A machine as an environment: actions set its inputs, observations are numbers of its results."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Finding: a sentence about a machine that is right by itself and may be a slip all the same."""
 
-from __future__ import annotations
-
 import math
 
 from nivel.errors import Fault

@@ -4,8 +4,6 @@ Levers are moved to and fro; then inputs are held at their ends, each alone and 
 at their ends then, where ticks may cost a multiple.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import product

@@ -18,8 +18,6 @@ One sender at a time drives: an address and port. While it is heard, others are 
 than the last one. After the silence of the watchdog whoever comes first drives, from whatever sequence number on.
 """
 
-from __future__ import annotations
-
 import socket
 import struct
 import threading

@@ -4,8 +4,6 @@ It begins with a line of text that says what it is, and a line of JSON: what is 
 numbers. A block that is whole can be read, however the program ended: the journal of a killed run ends with its last whole block.
 """
 
-from __future__ import annotations
-
 import json
 import struct
 import zlib

@@ -3,8 +3,6 @@
 It looks at the frames that watchers get, once a second, in the process of the server: the solver's loop does nothing for it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import isnan
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """One HTML file in which a machine lives: its machine code for WebAssembly, its memory, its picture, and the page of `nivel live`."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator
 from dataclasses import asdict

@@ -1,7 +1,5 @@
 """The picture of a live machine on a page: its package, and what of a frame of the run goes into one of the page."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from typing import Any, Final

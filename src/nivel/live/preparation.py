@@ -1,7 +1,5 @@
 """A machine made ready for live operation: fixed steps, ticks, inputs as tables of two points."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Mapping, Sequence
 from math import ceil

@@ -1,7 +1,5 @@
 """The recorder of a live run: the inputs of all its ticks and its frames go to the disk while it goes on."""
 
-from __future__ import annotations
-
 import threading
 from collections import deque
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A recorded run again: tick by tick as it was, to the last bit, or by other methods with the same inputs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from os import PathLike
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A live machine as the server sees it: the solver's process, its memory, commands, the operator, the recording."""
 
-from __future__ import annotations
-
 import multiprocessing
 import threading
 import time

@@ -1,7 +1,5 @@
 """The memory that the solver's process shares with the server of the page: the arrays of `Live`, one after the other."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, Final, NamedTuple
 

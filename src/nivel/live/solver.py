@@ -1,7 +1,5 @@
 """The solver's process: it prepares the machine, ticks, and does what it is told between two ticks."""
 
-from __future__ import annotations
-
 import contextlib
 import multiprocessing
 import os

@@ -1,7 +1,5 @@
 """A live machine for the page: frames with gauges, the operator among the pages, commands."""
 
-from __future__ import annotations
-
 import threading
 import time
 from typing import Final, Literal, Protocol

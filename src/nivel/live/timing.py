@@ -1,7 +1,5 @@
 """Timing of ticks: percentiles of the histograms of their length and delay that the loop fills, and the share of each part in them."""
 
-from __future__ import annotations
-
 import ctypes
 import gc
 import os

@@ -1,7 +1,5 @@
 """Positions of points of bodies in space."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

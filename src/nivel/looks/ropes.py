@@ -1,7 +1,5 @@
 """Lines of ropes, belts and chains around their pulleys."""
 
-from __future__ import annotations
-
 import itertools
 from typing import Any, Final
 

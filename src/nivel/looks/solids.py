@@ -1,7 +1,5 @@
 """Shapes of bodies as flat faces, in the body frame."""
 
-from __future__ import annotations
-
 from itertools import pairwise, product
 from typing import Any, Final
 

@@ -4,8 +4,6 @@ Between two frames the line is a cubic (Hermite) that leaves and arrives along t
 the section turns evenly from one frame to the next and is tilted so that it stands square to the line. Without `smooth` it is straight.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Any, Final
 

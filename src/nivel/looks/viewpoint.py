@@ -1,7 +1,5 @@
 """Viewpoint from which a machine is seen."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.lazy import dataclass

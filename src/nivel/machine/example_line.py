@@ -1,7 +1,5 @@
 """The line that would be right where a list or a mapping was expected and something else stands."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """Fluids of circuits and the components in which they flow: one fluid for each, and gases where gas may flow."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """The `parameters:` of a machine file: named numbers that may use each other in any order."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from nivel.machine.units.arithmetic import NOT_FOR_PARAMETERS, bind, evaluate, given

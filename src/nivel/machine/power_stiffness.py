@@ -1,7 +1,5 @@
 """The stiffness K of an effort K · depth ** exponent, whose unit depends on the exponent: `2e9 N/m^1.5`."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Final
 
 from pydantic import PlainValidator, ValidationInfo, WithJsonSchema

@@ -1,7 +1,5 @@
 """Shapes of bent beams: their lines at some times of a run in one picture, with the paths of their named stations."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable
 from html import escape

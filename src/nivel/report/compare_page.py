@@ -1,7 +1,5 @@
 """The page of a comparison: which method is worth what, in one HTML file, with the work–precision diagram."""
 
-from __future__ import annotations
-
 import math
 import os
 from html import escape

@@ -1,7 +1,5 @@
 """The control as a block diagram (SVG): from left to right what is measured, blocks as signals flow, and what they act on."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape

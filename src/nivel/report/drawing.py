@@ -1,7 +1,5 @@
 """Drawing of a machine in pixels: parts, the frame from metres to pixels, shading, and names where they hide nothing."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

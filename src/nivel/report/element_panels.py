@@ -1,7 +1,5 @@
 """Panels of the elements whose numbers are named one by one: drivers, couplings, forces, sensors."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any

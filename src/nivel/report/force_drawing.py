@@ -1,7 +1,5 @@
 """Pictures of what acts between points: springs, other forces between two bodies, and the planes of contacts."""
 
-from __future__ import annotations
-
 from html import escape
 from typing import Any
 

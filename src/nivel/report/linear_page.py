@@ -1,7 +1,5 @@
 """The page of a linearisation: eigenvalues and modes, frequency response, matrices, in one HTML file with everything in it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """Load–displacement diagrams of a statics result as SVG, and its vibrations as a table."""
 
-from __future__ import annotations
-
 from html import escape
 
 import numpy as np

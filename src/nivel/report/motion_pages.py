@@ -1,7 +1,5 @@
 """Pages of analyses of motion: efforts of inverse dynamics; coupler curves and transmission angles."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.report.page import page

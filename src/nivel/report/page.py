@@ -1,7 +1,5 @@
 """Pages from templates: one HTML file with styles and scripts inside."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Panel of plots in the report: groups of curves of one unit, of which the reader chooses one, and curves with fewer points."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Plots of the report, in the order of the story: motion, energy, what acts, what the joints carry, what is left open."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A still picture of the assembled machine with its names."""
 
-from __future__ import annotations
-
 from html import escape
 from pathlib import Path
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """The page of a reduction: what the flexible body is worth, in one HTML file, with still pictures of its modes."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from typing import Final, NamedTuple

@@ -1,7 +1,5 @@
 """The words and figures of the report around its plots."""
 
-from __future__ import annotations
-
 import json
 import math
 import re

@@ -1,7 +1,5 @@
 """Signs of ground, planes, springs, links, centres of mass and joints as in textbooks, in SVG. Sizes in pixels of the picture."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from html import escape

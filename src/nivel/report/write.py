@@ -1,7 +1,5 @@
 """Write the report: one HTML file with everything in it."""
 
-from __future__ import annotations
-
 import base64
 import json
 import os

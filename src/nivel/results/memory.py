@@ -1,7 +1,5 @@
 """A sink that keeps the frames in memory, for runs without a file."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

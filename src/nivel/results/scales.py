@@ -1,7 +1,5 @@
 """The scales of a run that its errors are compared with: size, speed, energy. `RULES` states them in words."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import lru_cache

@@ -7,8 +7,6 @@ the file is rewritten, compressed and in chunks that run along time, beside the 
 atomic step.
 """
 
-from __future__ import annotations
-
 import os
 from math import prod
 from pathlib import Path

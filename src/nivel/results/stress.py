@@ -1,7 +1,5 @@
 """A flexible body of a run: where its nodes are and how it is stressed, at every frame."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence

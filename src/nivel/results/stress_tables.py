@@ -1,7 +1,5 @@
 """Displacement and stress of a flexible body as tables of text for other programs, and as data."""
 
-from __future__ import annotations
-
 import csv
 import os
 from collections.abc import Iterable, Iterator, Sequence

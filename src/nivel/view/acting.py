@@ -1,7 +1,5 @@
 """Forces on a machine, as the page draws them: forces between bodies, loads on one, and what works on joints, drivers among it."""
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 from nivel.lazy import dataclass

@@ -1,7 +1,5 @@
 """Stress of flexible bodies at the vertices that are drawn, and forces in the sections of beams, for the colours of the page."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from dataclasses import replace

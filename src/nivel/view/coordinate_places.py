@@ -1,7 +1,5 @@
 """Places of joint coordinates in the picture: their joint, the bodies and points there, and the axis along or about which it counts."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

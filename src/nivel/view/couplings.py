@@ -4,8 +4,6 @@ Teeth say how the radii of two wheels are to each other; how large they are foll
 teeth at a distance a, outside each other r = a n/(n₁ + n₂), one inside the other r = a n/|n₁ - n₂|.
 """
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Extent of a machine during its motion, and the first viewpoint."""
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """One moment as one packed array: positions and Euler parameters of all bodies, modal coordinates, vectors."""
 
-from __future__ import annotations
-
 import struct
 from typing import Final
 

@@ -3,8 +3,6 @@
 A place is a byte of the machine's memory, counted from its begin. A column is a number's place in a frame of the run.
 """
 
-from __future__ import annotations
-
 from nivel.lazy import dataclass
 
 

@@ -10,8 +10,6 @@ then     arrays, each from a multiple of 8 on
 =======  ==================================================
 """
 
-from __future__ import annotations
-
 import base64
 import json
 import struct

@@ -1,7 +1,5 @@
 """The built page: as the server gives it out, and with a package inside as one file that opens anywhere."""
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import os

@@ -1,7 +1,5 @@
 """The package of one result, or of two laid over each other."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from typing import Any, Final

@@ -7,8 +7,6 @@ Packed arrays lie one after the other in a block of bytes; `Packed` says where. 
 little-endian 32-bit number that says what follows: see PACKAGE, FRAME and COLUMN.
 """
 
-from __future__ import annotations
-
 from typing import Final, Literal
 
 from nivel.lazy import dataclass, field

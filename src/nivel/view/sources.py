@@ -1,7 +1,5 @@
 """Sources of a server: something with a package, and perhaps with frames that come while it is looked at."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from threading import Lock
 from typing import Any, Protocol

@@ -1,7 +1,5 @@
 """Stage: what is drawn of a machine, from the scene of its result and the machine's record."""
 
-from __future__ import annotations
-
 import base64
 import zlib
 from typing import Any, Final

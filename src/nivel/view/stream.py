@@ -1,7 +1,5 @@
 """One page that is connected: its frames, newest only and one on its way at a time, and what it asks for, within bounds."""
 
-from __future__ import annotations
-
 import asyncio
 import json
 import math

@@ -2,8 +2,6 @@
 
 A test checks that FILE is current."""
 
-from __future__ import annotations
-
 import sys
 from dataclasses import fields, is_dataclass
 from pathlib import Path

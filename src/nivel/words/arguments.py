@@ -4,8 +4,6 @@ What does not fit, is missing, or is no argument at all is told at once, as faul
 NumPy scalars stand for the numbers that they are. Numbers out of range, and what is inside of records, are left to those who read them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import cache, reduce, wraps
 from inspect import Parameter, Signature, signature
@@ -61,7 +59,8 @@ def _unpacked(function: Any) -> Signature:
     its = signature(function)
     its_own = [each for each in its.parameters.values() if each.kind is not Parameter.VAR_KEYWORD]
     rest = [str(each.annotation) for each in its.parameters.values() if each.kind is Parameter.VAR_KEYWORD]
-    keys = function.__globals__.get("".join(rest).removeprefix("Unpack[").removesuffix("]"))
+    # `Unpack[Keys]` as it is written, or evaluated `typing.Unpack[nivel.settings.Keys]`
+    keys = function.__globals__.get("".join(rest).removesuffix("]").replace("[", ".").rpartition(".")[2])
     if not is_typeddict(keys):
         return its
     settings = [

@@ -3,8 +3,6 @@
 A word of ours answers where it is valid in that place. Where no single word says it, a line to write does.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Wording of messages: what stood there, and what would be right."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches

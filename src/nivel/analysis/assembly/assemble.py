@@ -5,8 +5,6 @@ The rows of a driven orientation vanish half a turn from it as well, so the asse
 it goes to the orientation that is meant.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 

@@ -4,8 +4,6 @@ There C_q has lost rank, and one free motion more is possible at first order tha
 aside in all directions of their plane are closed again; each comes to one of the motions that are really possible.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.analysis.assembly.closing import Index, close_positions

@@ -10,8 +10,6 @@
 Pressures that are given stay as they are.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

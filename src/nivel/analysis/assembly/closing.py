@@ -1,7 +1,5 @@
 """Moving a machine onto its constraints by the least change of its positions or velocities (Gauss–Newton, least squares)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import Protocol
 

@@ -1,7 +1,5 @@
 """The compiled equations of motion of one machine, called from Python: for assembly, checks and tests; never in a time loop."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cached_property
 from importlib import import_module

@@ -1,7 +1,5 @@
 """The residual of a machine for implicit methods: its tables, its twin on dual numbers, and calls of it from Python."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import Any
 

@@ -6,8 +6,6 @@ Derivatives are those of the compiled residual of implicit methods on dual numbe
 Positions move by tangent increments: a body turns after its present rotation, about its own axes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from itertools import pairwise
 from typing import Any

@@ -5,8 +5,6 @@ Eliminating the accelerations from M v̇ + C_qᵀ α (C_q v̇ - γ + 2 Ω μ Ċ 
 rows depend on each other. 1/S_kk is the mass that row k moves, so α = factor/S_kk needs no guess.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import TypeVar

@@ -4,8 +4,6 @@ Lost directions: points that coincide where a joint needs the line between them,
 Such a joint is closed as placed, but nothing says in which direction it holds: the derivative of its row is zero, or not a number.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

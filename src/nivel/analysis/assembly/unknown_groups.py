@@ -1,7 +1,5 @@
 """Unknowns of implicit methods in groups that depend on each other as a whole: what the plan of their matrix is made of."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from itertools import combinations

@@ -6,8 +6,6 @@ squares in the velocities whitened by the mass matrix. Where what is given does 
 in lengths of the machine and radians.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Run a machine with many methods and measure each: time, constraints, energy, distance from a reference."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, pairwise

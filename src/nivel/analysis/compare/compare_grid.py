@@ -1,7 +1,5 @@
 """The cells of a comparison: all combinations of some words, steps and tolerances, with frames at common times."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction

@@ -1,8 +1,6 @@
 """Corners and jumps of the functions of a machine: times at which functions of time have corners, as points of tables of straight lines,
 and where an absolute value, a minimum or a maximum of expressions of time alone changes sides; and functions that jump with the motion."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import suppress
 from functools import lru_cache

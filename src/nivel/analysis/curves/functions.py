@@ -1,7 +1,5 @@
 """The functions of a machine as curves: their values at many places at once, and bounds of them over intervals."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from typing import Any, Protocol

@@ -6,8 +6,6 @@ errors of both signs cancel as they do in the motion, and held against the integ
 between samples are found by bounds of the function over intervals, which are halved as long as they allow more than was sampled.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 
 import numpy as np

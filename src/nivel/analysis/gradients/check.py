@@ -5,8 +5,6 @@ What a branch, a contact, an event or a search by secants cuts off a slope, is m
 of fixed size contain the change, only if the parameter moves it over some of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Gradients of runs: outputs, parameters, and a dataset of the slopes with their units and how far to trust them."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from functools import partial

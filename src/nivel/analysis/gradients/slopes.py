@@ -7,8 +7,6 @@ round-off, or to what the assembly and an equilibrium are closed to: differences
 the machine cannot be built so far away, or is not smooth there, the step is narrow.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import partial

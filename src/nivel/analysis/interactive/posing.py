@@ -4,8 +4,6 @@ The numbers are joint coordinates, and what these do not reach: three angles of 
 holds (`handles`). Beams go along without bending.
 """
 
-from __future__ import annotations
-
 import time as clock_of_python
 from collections.abc import Sequence
 from typing import Any, Final

@@ -5,8 +5,6 @@ Friction is loaded by reactions, which depend on the efforts that are sought. Th
 driver on a joint coordinate is then that of an actuator in its place.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -9,8 +9,6 @@ coordinates of the spanning tree, and positions of the others are closed by Newt
 All that is asked for takes one state, or rows of states, of which there are as many results.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Final
 

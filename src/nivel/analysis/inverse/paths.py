@@ -8,8 +8,6 @@ At each place of the path the error e of position, and of orientation as a rotat
 clipping). Freedoms that the path leaves go towards a preferred posture. Loops stay closed: J is that of the independent coordinates.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -4,8 +4,6 @@ Buffers and addresses are prepared once. Values come from the residual of implic
 Machines with loops are those whose independent rows are chosen at the start; a state at which these do not suffice is left to others.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Final
 

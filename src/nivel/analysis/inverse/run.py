@@ -9,8 +9,6 @@ has one solution where there are as many independent actuators as freedoms; with
 with fewer what no effort gives is told. The reactions of the joints do not enter, redundant or not.
 """
 
-from __future__ import annotations
-
 import csv
 from collections import Counter
 from collections.abc import Sequence

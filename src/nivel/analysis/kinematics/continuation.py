@@ -5,8 +5,6 @@ positions themselves go on: those of a machine with one free motion are a curve 
 along τ is closed again by corrections as small as possible, and the sign of τ is kept by τ·τ_before > 0 (Keller 1977).
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A machine with one joint coordinate driven evenly over the duration of an analysis."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import suppress
 from math import pi

@@ -1,7 +1,5 @@
 """A whole kinematic analysis: from a machine record to a result with its trust report."""
 
-from __future__ import annotations
-
 import json
 import time
 from importlib import import_module

@@ -10,8 +10,6 @@ An axis of symmetry a that precesses steadily, ȧ = Ω n × a, has ω_P = Ω n =
 without such an axis has ω_P = ω: its frequencies are those that an observer on it sees.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

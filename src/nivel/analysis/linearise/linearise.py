@@ -1,7 +1,5 @@
 """A whole linearisation: the linear model of a machine, with its trust report."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 

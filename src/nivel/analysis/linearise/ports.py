@@ -5,8 +5,6 @@ The law of a command becomes that law and a state x without a rate, which is zer
 name, so that everything goes on reading it. Derivatives with respect to such states are exact, as those of all states.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any, Final, TypeVar

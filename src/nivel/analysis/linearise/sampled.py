@@ -8,8 +8,6 @@ exact derivatives F of its law, in the order in which the samples of an instant 
 A loop is opened where the machine reads a sampled value: a copy that only the machine reads takes an input in place of it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import lcm

@@ -7,8 +7,6 @@ many poles outside the unit circle as there are now, which the turns of 1 + L te
 2006, §6.7).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import product
 from typing import Final

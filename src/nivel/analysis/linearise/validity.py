@@ -5,8 +5,6 @@ A machine in equilibrium stays; one in steady motion passes other positions with
 spins where its turns are measured about its own axes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Evaluations of a machine's outputs over its parameters: with all that was computed kept, and slopes by differences."""
 
-from __future__ import annotations
-
 import json
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence

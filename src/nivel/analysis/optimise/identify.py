@@ -4,8 +4,6 @@ Residuals are differences of results and measurements over the standard deviatio
 found, the covariance is s² (Jᵀ J)⁻¹; s² = Σ r²/(n - p) where deviations are not known, 1 where they are (Seber and Wild 1989, ch. 2).
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping, Sequence
 from time import perf_counter

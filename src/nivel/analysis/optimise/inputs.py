@@ -1,7 +1,5 @@
 """Inputs over time as parameters: values of a table between which they change along straight lines (direct shooting)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from os import PathLike, fspath
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """Minimisation over parameters of a machine, with bounds and constraints on outputs, from several starts."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial

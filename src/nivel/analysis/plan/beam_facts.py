@@ -1,7 +1,5 @@
 """Facts of a beam: its mass, and the range of frequencies of the beam and of its elements."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from math import inf, sqrt
 from typing import Any, Final

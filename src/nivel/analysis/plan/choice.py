@@ -11,8 +11,6 @@ ground; in absolute ones the rows with the bodies that they touch; and in both t
 measured evaluations of the slider-crank, chains and pairs of bodies (`benchmarks/profile_step.py`).
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator
 from math import ceil, pi

@@ -1,7 +1,5 @@
 """The entries that a run needs; those without machine code are compiled together, and later processes find it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from importlib import import_module

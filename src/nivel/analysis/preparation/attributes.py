@@ -1,7 +1,5 @@
 """Attributes of a run that are known before its first frame."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Protocol

@@ -1,7 +1,5 @@
 """Two runs side by side: the second one never begins a step where the first one has not been, and makes shorter ones."""
 
-from __future__ import annotations
-
 import math
 import signal
 import threading

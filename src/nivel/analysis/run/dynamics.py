@@ -1,7 +1,5 @@
 """Motion in time: advance in chunks, feed the sinks, say how it ended."""
 
-from __future__ import annotations
-
 import threading
 import time as clock_of_python
 from collections.abc import Callable, Sequence

@@ -6,8 +6,6 @@ their stiffness and the masses beside them, those of beams from their elements, 
 What comes in its place is implicit, with steps of one length and one cost.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from math import sqrt
 

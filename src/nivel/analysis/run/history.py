@@ -1,7 +1,5 @@
 """The history of a run at its start: clocks, counters, scales of errors, room for frames and events, and nothing remembered."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Many copies of a machine in motion, stepped by one call: for learning, and for control that looks ahead."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 

@@ -5,8 +5,6 @@ What is carried is what the motion remembers: time, state, turns of angles, memo
 lengths and laws stay those of the machine that takes it.
 """
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial

@@ -6,8 +6,6 @@ steps as short as the lines that are not green ask for, and work allows. At last
 it would follow. The choice whose report is best is kept, and the report says what was tried.
 """
 
-from __future__ import annotations
-
 import json
 import time
 from collections.abc import Iterator

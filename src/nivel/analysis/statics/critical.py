@@ -5,8 +5,6 @@ between the two, to whose points the path is projected, by Brent's method on tha
 make a limit point, where time turns back; loads that do none a bifurcation, where a second path crosses this one.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Frames of a statics result: those of a run, without what is always zero at rest, and with what only statics knows."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

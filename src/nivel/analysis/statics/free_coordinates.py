@@ -1,7 +1,5 @@
 """Coordinates without stiffness, named free: an equilibrium leaves them where they are placed, and no force may act on them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.analysis.plan.choice import choose_coordinates

@@ -1,7 +1,5 @@
 """Linear equations of statics: sparse factors, and how many directions of a stiffness are unstable."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -6,8 +6,6 @@ tangent asks for is smaller than the step itself (natural monotonicity test; Deu
 do the test and the tolerance.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -5,8 +5,6 @@ corrections are perpendicular to the tangent of the path (Riks 1979, Wempner 197
 equilibrium to go on, are passed. Positions count as much as time does at the start, whatever the stiffness: the scale is the first tangent.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

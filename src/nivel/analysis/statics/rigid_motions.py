@@ -5,8 +5,6 @@ matrix one body is tied to the ground along those motions. K x + S x = -r with S
 motions. Where K B = 0 and Bᵀ r = 0 it follows that Wᵀ x = 0: the tie bears nothing, and x is an exact step of Newton's method.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.sparse import coo_matrix, csc_matrix
 

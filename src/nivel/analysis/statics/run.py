@@ -1,7 +1,5 @@
 """A whole statics run: from a machine record to a result with its trust report."""
 
-from __future__ import annotations
-
 import json
 import time
 from collections.abc import Iterator

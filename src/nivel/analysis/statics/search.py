@@ -9,8 +9,6 @@ So what is found is stable, unlike what Newton's iteration alone would find from
 there, stable or not. (Levenberg 1944; pseudo-transient continuation, Kelley, Keyes 1998.)
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.analysis.assembly.unknown_groups import unknown_name

@@ -1,7 +1,5 @@
 """The equilibrium from which a run in time starts."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.analysis.assembly.assemble import Assembly

@@ -3,8 +3,6 @@
 Runs of variants in lanes: as many at once as the processor has, where each step is the same code for all of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from time import thread_time
 from typing import Any, Final

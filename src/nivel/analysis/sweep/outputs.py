@@ -1,7 +1,5 @@
 """Outputs of a study: one number of the result of a variant."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping
 from functools import cache

@@ -4,8 +4,6 @@ How numbers follow from the parameters is found by preparing a few variants, and
 changes its structure, or depends on two parameters together is left to those who prepare every variant.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from time import thread_time

@@ -1,7 +1,5 @@
 """A study held against its machine: nominal values put in, and everything that does not fit told at its place in the study file."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Mapping
 from functools import partial

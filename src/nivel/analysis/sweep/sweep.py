@@ -3,8 +3,6 @@
 A batch: many runs of one machine with other numbers, without trust reports, in the memory and threads of this process.
 """
 
-from __future__ import annotations
-
 import sys
 from collections import Counter, deque
 from collections.abc import Callable, Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """One variant of a sweep: its computation, and what is kept of it."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields

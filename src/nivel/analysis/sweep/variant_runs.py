@@ -1,7 +1,5 @@
 """Runs of variants without trust reports: patched where their numbers follow from the parameters by formulas, else each prepared."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from math import nan
 from typing import Any, Final

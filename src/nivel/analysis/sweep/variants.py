@@ -1,7 +1,5 @@
 """The variants of a study: which values each has, and how they are laid out along the dimensions of the results."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from itertools import product

@@ -1,7 +1,5 @@
 """Flexible bodies of a machine, as the checks look at them: their modes, and where these stand in a result."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -5,8 +5,6 @@ a beam goes with the power p of the length of its elements, the distance D to tw
 as many 2ᵖ - 1 times it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, Final
 

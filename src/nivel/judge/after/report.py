@@ -1,7 +1,5 @@
 """Trust report: the checks of the folder `checks`, what they need, measure and say, and what they find of a subject."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from importlib import import_module

@@ -4,8 +4,6 @@ Two hulls are looked at where the ways between two frames can bring them togethe
 is as far as this gap allows, and the intervals with the longest ways come first, so that the work is bounded: what is left is told.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cached_property
 from typing import Any

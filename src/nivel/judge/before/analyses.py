@@ -1,7 +1,5 @@
 """Machines without kinematics, inverse dynamics, statics or linear equations: what these analyses refuse, and why."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator
 from operator import attrgetter
 

@@ -1,7 +1,5 @@
 """Description of a machine before any run: degrees of freedom, redundancy, assembly, conventions."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

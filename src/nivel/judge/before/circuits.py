@@ -1,8 +1,6 @@
 """Connections and settings of circuits that are right by themselves and fit badly together: what is reversed, what leads nowhere, what one
 setting makes of another one."""
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping

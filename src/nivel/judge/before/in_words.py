@@ -1,7 +1,5 @@
 """Couplings, drivers, forces, inputs, states, sensors and events in words: what `nivel check` says of them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

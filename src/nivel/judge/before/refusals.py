@@ -1,7 +1,5 @@
 """Refusals before a run whose numbers would mean nothing, though the machine can be assembled."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 

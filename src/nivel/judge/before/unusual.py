@@ -1,7 +1,5 @@
 """Values of a machine that are far from those of real machines: what stands there, what is usual, and what to write."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache

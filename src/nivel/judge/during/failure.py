@@ -1,7 +1,5 @@
 """Failures by the status of a run: what is said of each, in one table: when it failed, where by joint and coordinate, and what to try."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Final
 

@@ -7,8 +7,6 @@ the owner of most of it is named. Otherwise it is a motion, in which the work of
 which is the work of that motion itself: the force, or the cylinder, with the largest one is named.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import cast
 

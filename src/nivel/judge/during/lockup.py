@@ -5,8 +5,6 @@ on (implicit function theorem), so a jam is a singular position. Towards it spee
 in a way of its own, or opens the joints. So the positions are asked, and not the method.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 

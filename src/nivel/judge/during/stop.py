@@ -1,7 +1,5 @@
 """Stop of a run that failed: its status, its last accepted state, and what the equations of motion tell of it there."""
 
-from __future__ import annotations
-
 from enum import IntEnum
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Characteristic curves of the valves of a machine at rest: flow over position, over pressure, or over setting, as SVG."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Mapping
 from html import escape

@@ -1,7 +1,5 @@
 """Characteristic curves of valves that are composed of others: shuttle, priority, divider, brake and pilot-operated valves."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """The diagram of the circuits of a machine as SVG, with a pressure at every node."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The components and nodes of a circuit as they are drawn: which symbol has a pin on which line."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
 

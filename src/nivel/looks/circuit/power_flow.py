@@ -4,8 +4,6 @@ Widths are energies. What components lose by their flows and differences of pres
 what is told of fluid that is compressed are the rest.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path

@@ -2,8 +2,6 @@
 has pins in several channels, a vertical line beside a column joins its tracks. So no line crosses a symbol, and no two lie upon each other.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from nivel.elements.circuits.symbol import LETTER

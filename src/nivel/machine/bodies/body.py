@@ -1,7 +1,5 @@
 """A rigid or flexible body, or a point mass, in words."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Final, Literal
 

@@ -3,8 +3,6 @@
 Tensors are about the stated point in body axes with tensor components: I_xx = ∫(y² + z²) dm, I_xy = -∫ x y dm.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from typing import Annotated, Any, Final

@@ -1,7 +1,5 @@
 """Uses of a point mass: it has a place but no turn, so only what acts at its origin makes sense."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """Polygons in a plane: whether they are sound, and area, centroid and second moments from their corners (Green's theorem)."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.lazy import dataclass

@@ -1,7 +1,5 @@
 """Volume, centroid and moments of homogeneous shapes in the body frame."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

@@ -5,8 +5,6 @@ the divergence theorem leaves of volume integrals over polynomials. Of a tetrahe
 ∫ x dV = V (a + b + c)/4 and ∫ x xᵀ dV = V (s sᵀ + a aᵀ + b bᵀ + c cᵀ)/20 with s = a + b + c (Tonon 2004).
 """
 
-from __future__ import annotations
-
 import base64
 import struct
 import zlib

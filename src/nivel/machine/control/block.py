@@ -1,7 +1,5 @@
 """Base of all blocks of a control, and their inputs: signals, numbers and conditions."""
 
-from __future__ import annotations
-
 import math
 import re
 from abc import abstractmethod

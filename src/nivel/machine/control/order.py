@@ -1,7 +1,5 @@
 """The order in which parts are computed, and faults between blocks: algebraic loops, names that are taken."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 

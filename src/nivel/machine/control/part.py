@@ -1,7 +1,5 @@
 """Parts of blocks: parts, each one number with a function that gives it, its rate, or its value after a sample."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from nivel.lazy import dataclass

@@ -4,8 +4,6 @@ What belongs to a joint coordinate is in metres or in radians: `OfCoordinate` as
 which must stand before, what kind it is; so does `OfCoordinateFunction` for what may vary.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Final, Literal
 

@@ -1,7 +1,5 @@
 """Bases of forces, also of those between two bodies or many, and the inequalities of elements that have a state."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, NamedTuple
 

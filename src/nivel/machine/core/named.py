@@ -1,7 +1,5 @@
 """Elements of a machine by name, to be read."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Final, Generic, TypeVar
 

@@ -1,7 +1,5 @@
 """Placement of frames at the start: body frames, also those laid between two points, frames given by axes, and checks of these."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Final

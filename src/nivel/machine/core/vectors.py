@@ -1,7 +1,5 @@
 """Arrays of numbers, and vectors of space."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

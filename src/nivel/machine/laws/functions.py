@@ -3,8 +3,6 @@
 They are found by what they are, in the fields of its parts and of the parts of these; a new section is looked at by itself.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from nivel.known import Block, Driver, State

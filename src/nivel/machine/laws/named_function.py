@@ -8,8 +8,6 @@
 They may use parameters and each other, in any order. Where an expression calls one, its body is put in.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from typing import Final

@@ -1,7 +1,5 @@
 """The text of a Python function together with what it uses, so that it can be compiled elsewhere."""
 
-from __future__ import annotations
-
 import ast
 import builtins
 import inspect

@@ -1,7 +1,5 @@
 """Signatures of records for people: what each field takes, in words."""
 
-from __future__ import annotations
-
 from functools import cache
 from inspect import Parameter, Signature
 from typing import Annotated, Any

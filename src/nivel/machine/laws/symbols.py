@@ -4,8 +4,6 @@ A symbol is the name of an element, a dot and a quantity. Where several elements
 the quantity is meant: of joints, inputs, states, blocks of the control, forces, hydraulics, sensors, markers and bodies, in this order.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from functools import lru_cache

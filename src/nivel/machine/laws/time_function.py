@@ -4,8 +4,6 @@ Components of forces and motions of drivers are of this type. Once in a record, 
 numbers in the text of an expression and those that a law is called with.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from typing import Annotated, Any, Final
 

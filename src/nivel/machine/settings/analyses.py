@@ -1,7 +1,5 @@
 """Settings of the analyses beside the run: linearisation, inverse dynamics, kinematics and statics."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from os import PathLike
 from typing import Annotated, Any, Final

@@ -1,7 +1,5 @@
 """Settings of the simulation of a machine and of its assembly."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Literal

@@ -1,7 +1,5 @@
 """Settings of a sweep: how values make variants, what is kept of each, and how many processes run them."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from typing import Annotated, Any, ClassVar, TypeVar, get_args
 

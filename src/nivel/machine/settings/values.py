@@ -1,7 +1,5 @@
 """Values of settings of analyses: numbers between bounds, times from zero on, coordinates, lists of names."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Annotated, Any, TypeVar, get_args
 

@@ -1,7 +1,5 @@
 """An input in words: a signal from outside, which an operator, a table or another program sets while the machine moves."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Literal

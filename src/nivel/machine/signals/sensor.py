@@ -1,7 +1,5 @@
 """A sensor in words: a quantity that a run stores."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Final
 

@@ -1,7 +1,5 @@
 """Quantities of any kind, kept as they are written: what they have to measure is known by the machine or the result alone."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Annotated, Any
 

@@ -1,7 +1,5 @@
 """Parameters of a study: the values of a number of the machine, its range, or its distribution."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping
 from functools import reduce

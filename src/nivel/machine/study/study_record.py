@@ -1,7 +1,5 @@
 """A study: a machine, what varies, how variants are drawn, the analysis that each is, and what is kept of it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from math import isfinite
 from typing import Annotated, Any, ClassVar, Final, Literal, get_args

@@ -6,8 +6,6 @@ grammar.py makes trees of texts. Here names are bound to parameters and units, a
 What varies is `time` and signals: what the machine itself does, such as `hinge.angle_rate`.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Mapping, Sequence
 from difflib import get_close_matches

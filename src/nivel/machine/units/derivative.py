@@ -6,8 +6,6 @@ Factors 0 and 1 that the rules leave behind are dropped, so that derivatives sta
 expression itself is: 3*time^2 becomes 6*time, without a division by time.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Final
 

@@ -6,8 +6,6 @@ velocity of 3 rad/s. A quantity without a dimension (`None`) is a bare number: i
 it stands in.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 BASES: Final = ("kg", "m", "s", "rad", "cycle", "A", "K", "mol", "cd")

@@ -1,8 +1,6 @@
 """Formulas that blocks are computed with: expressions of symbols and numbers, put together here and not by users; linear functions of
 signals and of the time need no compiler."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from nivel.lazy import dataclass

@@ -5,8 +5,6 @@ A row is all that is known of a function. Everything that reads expressions read
 users lists the rows.
 """
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_right
 from collections.abc import Callable, Iterator, Sequence

@@ -19,8 +19,6 @@ there is one too: `2 m`, `9.81 m/s^2`. Elsewhere it is the parameter: `2*m`, `F/
 where the whole text is a number with units: `10 N*m`.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from functools import lru_cache

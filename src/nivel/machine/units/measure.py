@@ -4,8 +4,6 @@
 A dimension by name belongs to signals that are quantities; a `rate` is of a length or of an angle.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from functools import reduce

@@ -1,7 +1,5 @@
 """Sides of expressions: pairs of parts whose order decides about a value, and marks, whose signs change where it has a corner or jumps."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 from nivel.machine.laws.varying_value import Expression, Table

@@ -1,7 +1,5 @@
 """Symmetric 6×6 matrices of stiffness or damping as people write them: six numbers of the diagonal, or six rows of six."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Annotated, Any, Final
 

@@ -1,7 +1,5 @@
 """Usual slips in expressions, most of them from other programs, and what to write."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection
 from typing import Final

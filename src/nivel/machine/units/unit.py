@@ -1,7 +1,5 @@
 """Units and their values in SI. Common units stand in a table; pint, slow to load, is asked only about the others."""
 
-from __future__ import annotations
-
 import math
 from difflib import get_close_matches
 from functools import cache

@@ -1,7 +1,5 @@
 """References to joint coordinates: `hinge.angle`, or `hinge` where only one can be meant."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 from typing import Annotated, Any, Final, Literal

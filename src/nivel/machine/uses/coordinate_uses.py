@@ -1,7 +1,5 @@
 """Uses of joint coordinates by couplings, drivers, forces and sensors: each exists, and none is driven twice."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """Connections of hydraulic circuits: each leads somewhere. Reads raw data too: one fault hides no other."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """Markers and joints at interfaces, which flexible bodies alone have."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from nivel.known import MachineRecord

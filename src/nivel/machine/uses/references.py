@@ -1,7 +1,5 @@
 """References of a machine: everything that it mentions exists. Reads raw data too: one fault hides no other."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Mapping
 from contextlib import suppress
 from typing import Any, Final

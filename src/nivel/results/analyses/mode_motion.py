@@ -1,7 +1,5 @@
 """Modes as animated motions: a vibration about an equilibrium, and a mode of a linear model."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Sampled controllers with the machine between their samples: discrete poles, and margins of the loops."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Final
 

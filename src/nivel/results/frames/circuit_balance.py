@@ -6,8 +6,6 @@ Losses are ∫ Σ Q Δp dt of all edges of a component, of gas those of its avai
 trust report.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any, Final

@@ -5,8 +5,6 @@ A variable is asked for by its own name (`position`) or for one element (`crank.
 `hinge.angle.rate`, `hinge.s.x.violation`; of two, `vibration_1.crank.mode_shift`), and either for one component (`crank.position.x`).
 """
 
-from __future__ import annotations
-
 import difflib
 import json
 import re

@@ -1,7 +1,5 @@
 """A result as a table of text: one row per frame, one column per number."""
 
-from __future__ import annotations
-
 import csv
 import json
 import os

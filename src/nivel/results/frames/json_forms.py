@@ -5,8 +5,6 @@ may be missing, `*` is every key and other keys may be there; a set is one of it
 described in `nivel.system.scene`.
 """
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 from nivel.lazy import dataclass

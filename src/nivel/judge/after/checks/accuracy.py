@@ -1,7 +1,5 @@
 """Accuracy of a run: its error as a second run tells it, the growth of errors, and round-off of positions."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.analysis.curves.corners import rounding_of_times

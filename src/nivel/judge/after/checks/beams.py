@@ -9,8 +9,6 @@ Near buckling a small error of the stiffness is a large one of the deflection. T
 where they would take all that is left of it, a state that was found is none.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Final
 

@@ -4,8 +4,6 @@ Velocities at two frames and the accelerations there tell a jump between them. W
 then the method has followed the motion round a corner, which joints that are open by round-off make of two branches that cross.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,8 +1,6 @@
 """Hydraulic circuits: their balances of energy and mass, cavitation, valves that are always open, engines that stall, and their steps; and
 blocks of the control that stand at their limits."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator
 from typing import Any

@@ -4,8 +4,6 @@ loads of tyres, and the volume of soil.
 Of contacts in passing spheres are exact. Of other shapes the convex hulls are looked at, of round ones polyhedra inside them.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

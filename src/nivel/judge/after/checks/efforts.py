@@ -4,8 +4,6 @@ The functions of drivers are evaluated here once more, as the machine file has t
 result.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Size of the elements of beams: what they make wrong of a run, of equilibria and of vibrations about these."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Final
 

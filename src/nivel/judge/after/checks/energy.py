@@ -5,8 +5,6 @@ takes from what it stops with a rate r = c/m the share 2 r h of its kinetic ener
 step says; a spring with the frequency ω takes up to ω h. Where that is of the order of one no formula on steps h has its work right.
 """
 
-from __future__ import annotations
-
 import json
 import math
 

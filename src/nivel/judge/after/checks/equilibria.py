@@ -1,7 +1,5 @@
 """States of equilibrium: how well they are balanced, how stable they are, and what statics does not tell of them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.judge.after.report import FRAMES, Check

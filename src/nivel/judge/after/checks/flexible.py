@@ -6,8 +6,6 @@ none. A force F of the frequency ω moves a body of the mass m by F/(m ω²), ti
 the body bends.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

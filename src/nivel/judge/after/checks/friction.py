@@ -1,7 +1,5 @@
 """Indeterminate friction: several frictions hold one motion at rest; what they hold it with together is known, their shares are not."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

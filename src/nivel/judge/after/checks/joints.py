@@ -1,7 +1,5 @@
 """Joints: degrees of freedom, redundant constraints, how far joints are open, and how fast their parts move against each other."""
 
-from __future__ import annotations
-
 from nivel.judge.after.report import Check
 from nivel.judge.after.subject import Equilibria, Motion, Positions, Recorded, Run, Scales
 from nivel.lazy import dataclass

@@ -1,8 +1,6 @@
 """Linear equations: what they are about, growth that round-off hides, kinks, and vibrations that elements of beams or modes of bodies
 make wrong."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,8 +1,6 @@
 """Loads that the steps of a run miss, functions that change between two samples, events that were passed unseen, and what was not
 examined."""
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_left
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Model of a run: what its translation left out, what had no part in it, unusual numbers, and a start that is not what was given."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from functools import partial

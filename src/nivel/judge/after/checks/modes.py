@@ -5,8 +5,6 @@ accelerations of the body, and from the forces at its interfaces. Those of joint
 body itself.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Final
 

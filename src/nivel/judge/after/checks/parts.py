@@ -1,7 +1,5 @@
 """Parts of a machine against their own motion and their own energy: a flywheel hides no pendulum."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Mapping
 from typing import Any

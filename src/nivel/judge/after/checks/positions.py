@@ -1,7 +1,5 @@
 """Positions of kinematic analyses: branches, places that a posture reaches, ranges of a coordinate, and curves of all positions."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.judge.after.checks.joints import OPENING

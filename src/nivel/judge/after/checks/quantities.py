@@ -1,7 +1,5 @@
 """Errors of all stored numbers beside positions: speeds, forces, pressures, flows, currents, signals, states and sensors."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 

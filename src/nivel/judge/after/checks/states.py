@@ -4,8 +4,6 @@ Each kind of element declares its inequalities in its record (`nivel.machine.cor
 and of its second run: frames of steps that were chosen lie inside these, where an element keeps the side that it had at their begin.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import cached_property
 from typing import Any

@@ -1,7 +1,5 @@
 """Steps of a run: too long for what is fastest, turns of bodies in a step, and what no frame shows."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Any

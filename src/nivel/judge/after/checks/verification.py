@@ -1,7 +1,5 @@
 """Outcome of an analysis, what has verified its result and what of it nothing has, variants of a sweep and references of a comparison."""
 
-from __future__ import annotations
-
 from nivel.judge.after.checks.efforts import not_compared
 from nivel.judge.after.other_elements import Compared
 from nivel.judge.after.report import Check

@@ -4,7 +4,8 @@ import inspect
 import json
 import subprocess
 import sys
-from typing import Any
+from functools import partial
+from typing import Any, Unpack
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from nivel.errors import ModelError
 from nivel.results import Memory, Result
 from nivel.results.comparison import Comparison, Row
 from nivel.results.stress import RecoveredBody
+from nivel.settings import KinematicsSettingsDict
 from nivel.words.arguments import checked_arguments
 from wrong_values import ODD, WRONG, told_or_done
 
@@ -206,6 +208,18 @@ def test_the_signature_stays_what_it_was():
     wrapped = checked_arguments(plain)
     assert inspect.signature(wrapped) == inspect.signature(plain)
     assert (wrapped.__name__, wrapped.__doc__) == ("plain", "Says what it does.")
+
+
+def test_keys_of_settings_stand_in_the_signature_whether_annotations_are_put_off_or_not():
+    def read(**settings: Unpack[KinematicsSettingsDict]) -> None: ...
+
+    def put_off(**settings: "Unpack[KinematicsSettingsDict]") -> None: ...
+
+    shown = inspect.signature(checked_arguments(read))
+    assert set(shown.parameters) == set(KinematicsSettingsDict.__annotations__)
+    assert shown == inspect.signature(checked_arguments(put_off))
+    for function in (read, put_off):
+        assert "positions" in "".join(faults_of(partial(checked_arguments(function), position=3)).values())
 
 
 def test_checking_arguments_loads_no_compiler():

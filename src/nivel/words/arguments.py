@@ -58,9 +58,11 @@ def _unpacked(function: Any) -> Signature:
     """
     its = signature(function)
     its_own = [each for each in its.parameters.values() if each.kind is not Parameter.VAR_KEYWORD]
-    rest = [str(each.annotation) for each in its.parameters.values() if each.kind is Parameter.VAR_KEYWORD]
-    # `Unpack[Keys]` as it is written, or evaluated `typing.Unpack[nivel.settings.Keys]`
-    keys = function.__globals__.get("".join(rest).removesuffix("]").replace("[", ".").rpartition(".")[2])
+    told = next((each.annotation for each in its.parameters.values() if each.kind is Parameter.VAR_KEYWORD), "")
+    if isinstance(told, str):  # put off
+        keys = function.__globals__.get(told.removeprefix("Unpack[").removesuffix("]"))
+    else:
+        keys = next(iter(get_args(told)), None)
     if not is_typeddict(keys):
         return its
     settings = [

@@ -72,6 +72,15 @@ def test_a_shuttle_passes_the_higher_side(a, b):
     assert of_b == pytest.approx(K * (1 - share) * root((b - 15) * BAR), rel=1e-8, abs=1e-15)
 
 
+@pytest.mark.parametrize(("a", "b"), [(30, 10), (10, 30), (17, 10), (12, 10)])
+def test_a_flushing_valve_passes_the_lower_side_where_both_differ_enough(a, b):
+    """Open from 4 to 10 bar: shut in the middle, half open at 7."""
+    valve = {"type": "flushing-valve", **RATED, "opens_at": "4 bar", "opening_range": "6 bar"}
+    of_a, of_b = steady(between(valve, A=a * BAR, B=b * BAR, C=5 * BAR), "valve.flow_A", "valve.flow_B")
+    assert of_a == pytest.approx(K * step((b - a - 4) / 6) * root((a - 5) * BAR), rel=1e-8, abs=1e-18)
+    assert of_b == pytest.approx(K * step((a - b - 4) / 6) * root((b - 5) * BAR), rel=1e-8, abs=1e-18)
+
+
 @pytest.mark.parametrize("over", [3.0, 6.5, 8.0, 10.0])
 def test_a_priority_valve_gives_the_rest_to_the_others(over):
     valve = {"type": "priority-valve", **RATED, "lag": 0}

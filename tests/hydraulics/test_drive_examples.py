@@ -131,3 +131,32 @@ def test_the_loader_drives_by_its_transmission():
     pressure = history(result, "hydraulics.ahead.pressure")[-1] - history(result, "hydraulics.astern.pressure")[-1]
     force = 20 * 110e-6 / (2 * math.pi) * pressure / 0.6
     assert 900 * speed < force < 2.5 * 900 * speed  # friction of the motor is the rest
+
+
+@pytest.mark.parametrize("inputs", [{}, {"fast": 1}, {"inch": 0.5}])
+def test_a_closed_transmission_drives_flushes_and_parks(inputs):
+    """On the way up the slope: the force of the motor, the speed by the displacements less leaks, and the lower side is flushed; at the end
+    the brake holds."""
+    machine = load(EXAMPLES / "closed-transmission.yaml")
+    result = machine.simulate(verify=False, inputs=inputs)
+    time = np.asarray(result.time)
+    k = np.searchsorted(time, 8.9)
+
+    def now(name):
+        return history(result, name)[k]
+
+    speed, torque = now("road.displacement.rate"), now("hydraulics.motor.torque")
+    gained = np.gradient(history(result, "road.displacement.rate"), time)[k]
+    load_ = 4000 * 9.81 * math.sin(math.radians(6)) + 400 * speed + (4000 + 79.19 / 0.45**2) * gained
+    assert abs(torque) * 24 / 0.45 == pytest.approx(load_, rel=2e-3)
+    share = now("hydraulics.pump.setting") * 45 / (now("hydraulics.motor.setting") * 80)
+    ideal = 0.45 * now("hydraulics.diesel.speed") * share / 24
+    assert 0.8 * ideal < speed < 0.97 * ideal
+    high, low, behind = (now(f"hydraulics.{node}.pressure") for node in ("ahead", "astern", "flushed"))
+    assert high > low + 10 * BAR
+    conductance = 20 * LITRE_PER_MINUTE / math.sqrt(6 * BAR)
+    expected = conductance * math.sqrt(low - behind)
+    assert now("hydraulics.flushing.flow_B") == pytest.approx(expected, rel=5e-3)
+    assert now("hydraulics.flushing.flow_A") == pytest.approx(0, abs=1e-12)
+    assert np.ptp(history(result, "road.displacement")[time > 11.5]) < 1e-9
+    assert history(result, "force.parking.capacity")[[0, k, -1]] == pytest.approx([6000, 0, 6000])

@@ -857,6 +857,7 @@ EVERYTHING = {
             "ports": {"A": "supply", "B": "line", "C": "sensed"},
             **_RATED,
         },
+        {"name": "flush", "type": "flushing-valve", "ports": {"A": "supply", "B": "line", "C": "tank"}, **_RATED},
         {
             "name": "unload",
             "type": "unloading-valve",

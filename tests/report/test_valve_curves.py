@@ -88,6 +88,11 @@ def test_a_brake_valve_opens_over_its_range():
     assert np.interp([10.0, 17.5, 25.0], curve.x, curve.y) == pytest.approx([0.0, 20.0, 40.0], abs=0.05)
 
 
+def test_a_flushing_valve_opens_over_its_range():
+    (curve,) = only(type="flushing-valve", at="ABC", opens_at="6 bar", opening_range="8 bar", **RATED).curves
+    assert np.interp([6.0, 10.0, 14.0], curve.x, curve.y) == pytest.approx([0.0, 20.0, 40.0], abs=0.05)
+
+
 def test_a_pilot_relief_valve_has_the_flow_of_its_pilot_then_that_of_its_main_stage():
     """p_X by bisection of the balance of the pilot; the main stage opens by p - p_X beyond its spring of 2 bar."""
     (curve,) = only(type="pilot-relief-valve", at="PT", opens_at="100 bar", **RATED).curves

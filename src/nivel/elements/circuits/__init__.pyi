@@ -31,6 +31,7 @@ from nivel.elements.circuits.actuators import TelescopicCylinder as TelescopicCy
 from nivel.elements.circuits.check_valves import BrakeValve as BrakeValve
 from nivel.elements.circuits.check_valves import CheckValve as CheckValve
 from nivel.elements.circuits.check_valves import CounterbalanceValve as CounterbalanceValve
+from nivel.elements.circuits.check_valves import FlushingValve as FlushingValve
 from nivel.elements.circuits.check_valves import QuickExhaust as QuickExhaust
 from nivel.elements.circuits.check_valves import ShuttleValve as ShuttleValve
 from nivel.elements.circuits.coolers import Cooler as Cooler

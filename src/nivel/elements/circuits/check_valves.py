@@ -1,5 +1,5 @@
-"""Valves through which fluid passes one way: check, shuttle and quick-exhaust valves; and by a pilot the other way, so that they hold a
-load: counterbalance and brake valves."""
+"""Valves through which fluid passes one way: check, shuttle, flushing and quick-exhaust valves; and by a pilot the other way, so that they
+hold a load: counterbalance and brake valves."""
 
 from __future__ import annotations
 
@@ -73,6 +73,21 @@ class ShuttleValve(Rated):
     leakage: Leakage = Field(default=0.0)
 
 
+class FlushingValve(Rated):
+    """Joins C with the one of A and B that has the lower pressure, where they differ enough: it takes warm oil from a closed circuit."""
+
+    needs: ClassVar[tuple[str, ...]] = ("A", "B", "C")
+    late: ClassVar[tuple[str, ...]] = ("flow_A", "flow_B", "position_A", "position_B")
+
+    type: Literal["flushing-valve"] = "flushing-valve"
+    opens_at: ranges.Drop = Field(
+        default=5e5, description="difference of pressure at which it leaves its centre, in which all is closed"
+    )
+    opening_range: ranges.Drop = Field(default=5e5, description="difference of pressure from there to fully open")
+    lag: ranges.Lag = Field(default=0.0, description="time constant; 0: none")
+    leakage: Leakage = Field(default=0.0)
+
+
 class QuickExhaust(Rated):
     """Lets fluid from P to A while p_P is higher, and from A to R while p_A is."""
 
@@ -105,6 +120,14 @@ def add_shuttle(builder: SystemBuilder, component: ShuttleValve) -> None:
         add_opened(builder, component, f"flow_{side}", ends, factors, constant=half, position=position)
 
 
+def add_flushing(builder: SystemBuilder, component: FlushingValve) -> None:
+    """A spool between both sides, centred by springs: the higher pressure joins the other side with C."""
+    ports = component.ports
+    for side, other in (("A", "B"), ("B", "A")):
+        factors, ends = {ports[other]: 1.0, ports[side]: -1.0}, (ports[side], ports["C"])
+        add_opened(builder, component, f"flow_{side}", ends, factors, component.opens_at)
+
+
 def add_quick_exhaust(builder: SystemBuilder, component: QuickExhaust) -> None:
     """p_P - p_A against the spring, and the other way round."""
     p, a, opens_at = component.ports["P"], component.ports["A"], component.opens_at
@@ -126,6 +149,18 @@ SEATS: Final = path("M-20 -9 H20 V9 H-20 Z M-13 -5 L-6 0 L-13 5 M13 -5 L6 0 L13 
     "M-20 0 H-26 V16 M20 0 H26 V16"
 )
 SHUTTLE = Symbol(SEATS + '<circle cx="-4" cy="0" r="4"/>', 26.0, 16.0, {"C": 0.0}, {"A": -26.0, "B": 26.0})
+
+# three positions: closed in the middle, one side each way
+FLUSHING = Symbol(
+    path(
+        "M-30 -9 H30 V9 H-30 Z M-10 -9 V9 M10 -9 V9 M0 -9 V-16 M-15 9 L-25 -9 M15 9 L25 -9 M-30 0 H-34 V16 M30 0 H34 V16"
+    )
+    + path("M-4 5 H4 M-4 -5 H4 M-25 9 V6 M-28 6 H-22 M25 9 V6 M22 6 H28"),
+    34.0,
+    16.0,
+    {"C": 0.0},
+    {"A": -34.0, "B": 34.0},
+)
 
 # a shuttle whose common port is A, with its exhaust
 QUICK_EXHAUST = Symbol(SEATS + '<circle cx="10" cy="0" r="4"/>', 26.0, 16.0, {"A": 0.0}, {"P": -26.0, "R": 26.0})
@@ -290,6 +325,7 @@ def brake(data: Mapping[str, Any]) -> Symbol:
 KINDS = (
     ComponentKind(CheckValve, add_check, OF_POPPETS, symbol=check),
     ComponentKind(ShuttleValve, add_shuttle, OF_POPPETS, symbol=SHUTTLE),
+    ComponentKind(FlushingValve, add_flushing, OF_POPPETS, symbol=FLUSHING),
     ComponentKind(QuickExhaust, add_quick_exhaust, OF_POPPETS, symbol=QUICK_EXHAUST),
     ComponentKind(CounterbalanceValve, add_counterbalance, OF_POPPETS, symbol=counterbalance, nodes=inner_nodes("Y")),
     ComponentKind(BrakeValve, add_brake, OF_POPPETS, symbol=brake),

@@ -1,11 +1,11 @@
-"""Characteristic curves of valves that are composed of others: shuttle, priority, divider, brake and pilot-operated valves."""
+"""Characteristic curves of valves that are composed of others: shuttle, flushing, priority, divider, brake and pilot-operated valves."""
 
 from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
 
-from nivel.elements.circuits.check_valves import BrakeValve, ShuttleValve
+from nivel.elements.circuits.check_valves import BrakeValve, FlushingValve, ShuttleValve
 from nivel.elements.circuits.flow_valves import FlowDivider, PriorityValve
 from nivel.elements.circuits.pilot_valves import PilotReducingValve, PilotReliefValve
 from nivel.lazy import dataclass
@@ -66,6 +66,11 @@ def _of_shuttle(valve: ShuttleValve, _: float) -> Chart:
     return _edges(valve, "p_A - p_B, bar", 0.0, {"A to C": (1.0, 1.0), "B to C": (-1.0, 1.0)})
 
 
+def _of_flushing(valve: FlushingValve, setting: float) -> Chart:
+    middle = setting + 0.5 * valve.opening_range
+    return _edges(valve, "p_B - p_A, bar", middle, {"A to C": (1.0, 1.0)})
+
+
 def _of_priority(valve: PriorityValve, margin: float) -> Chart:
     return _edges(valve, "p_CF - p_LS, bar", margin, {"P to CF": (-1.0, 1.0), "P to EF": (1.0, 1.0)})
 
@@ -112,6 +117,7 @@ def _of_pilot_reducing(valve: PilotReducingValve, setting: float) -> Chart:
 
 OF_COMPOSED: Final[dict[type | tuple[type, ...], tuple[Callable[[Any, float], Chart | None], str]]] = {
     ShuttleValve: (_of_shuttle, ""),
+    FlushingValve: (_of_flushing, "opens_at"),
     PriorityValve: (_of_priority, "margin"),
     FlowDivider: (_of_divider, ""),
     BrakeValve: (_of_brake, "opens_at"),

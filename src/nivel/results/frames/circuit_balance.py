@@ -39,6 +39,7 @@ ENDS: Final[dict[str, dict[str, tuple[str, str]]]] = {
     },
     "cartridge-valve": {"flow": ("A", "B")},
     "shuttle-valve": {"flow_A": ("A", "C"), "flow_B": ("B", "C")},
+    "flushing-valve": {"flow_A": ("A", "C"), "flow_B": ("B", "C")},
     "priority-valve": {"flow_CF": ("P", "CF"), "flow_EF": ("P", "EF")},
     "flow-divider": {
         "orifice_flow_A": ("P", "M"),

@@ -32,6 +32,7 @@ from nivel.elements.contacts.contact import Contacts as Contacts
 from nivel.elements.contacts.contact import Material as Material
 from nivel.elements.contacts.shapes import Hull as Hull
 from nivel.elements.contacts.soil import OnSoil as OnSoil
+from nivel.elements.contacts.soil import SoilUnit as SoilUnit
 from nivel.elements.control import ControlBlock as ControlBlock
 from nivel.elements.control.held import Delay as Delay
 from nivel.elements.control.units import UnitBlock as UnitBlock
@@ -46,6 +47,7 @@ from nivel.elements.forces.ropes import Rope as Rope
 from nivel.elements.forces.shafts import BeltDrive as BeltDrive
 from nivel.elements.forces.springs import JointSpringDamper as JointSpringDamper
 from nivel.elements.forces.springs import TorsionalSpringDamper as TorsionalSpringDamper
+from nivel.elements.forces.terramechanics import Blade as Blade
 from nivel.elements.joints.couplings import Belt as Belt
 from nivel.elements.joints.couplings import Coupling as Coupling
 from nivel.elements.joints.couplings import FunctionCoupling as FunctionCoupling
@@ -87,6 +89,7 @@ from nivel.results.comparison import Comparison as Comparison
 from nivel.results.frames.circuit_balance import ComponentBalance as ComponentBalance
 from nivel.results.result import Result as Result
 from nivel.results.stress import RecoveredBody as RecoveredBody
+from nivel.results.terrain import TerrainHistory as TerrainHistory
 from nivel.studies import Study as Study
 from nivel.system.builder import SystemBuilder as SystemBuilder
 from nivel.system.joint_rows import RowTable as RowTable

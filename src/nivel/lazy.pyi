@@ -224,6 +224,7 @@ import nivel.results.scales
 import nivel.results.stress
 import nivel.results.stress_tables
 import nivel.results.study_statistics
+import nivel.results.terrain
 import nivel.results.trust
 import nivel.studies
 import nivel.system

@@ -1,6 +1,6 @@
 // The page: one machine in the picture, perhaps ghosts of it, and what controls them.
 import { Columns } from "./columns";
-import type { Connection, Frame, Samples } from "./connection";
+import type { Connection, Frame, Moved, Samples } from "./connection";
 import type { FromServer, Stage } from "./generated/records";
 import { Motion } from "./motion";
 import type { Opened } from "./package";
@@ -18,6 +18,7 @@ import { Handled } from "./stage/handled";
 import { listenToPicks } from "./stage/picking";
 import { Traces } from "./stage/traces";
 import { surroundings } from "./stage/surroundings";
+import { Terrain } from "./stage/terrain";
 import { Trails } from "./stage/trails";
 import { Violations } from "./stage/violations";
 import type { View } from "./stage/views";
@@ -46,6 +47,7 @@ export class App {
   readonly actor: Actor;
   readonly ghosts: { actor: Actor; motion: Motion }[] = [];
   readonly motion: Motion | null;
+  readonly terrains: Terrain[];
   readonly player: Player | null = null;
   readonly arrows: Arrows;
   readonly colours: Colours;
@@ -109,6 +111,8 @@ export class App {
     this.follower = new Follower(this.world, this.actor);
     this.handled = new Handled(this.world, this.actor, (body) => this.follower.toggle(body));
     if (stage.surroundings.length) this.world.scene.add(surroundings(stage, arrays));
+    this.terrains = stage.terrains.map((each) => new Terrain(each, arrays, this.actor));
+    for (const { mesh, heaps } of this.terrains) this.world.scene.add(mesh, ...heaps);
     this.world.scene.add(this.actor.root, this.arrows.root, this.traces.root, this.violations.root);
     this.compass = new Compass(this.world);
     holder.append(names, this.compass.element, this.legend.element);
@@ -197,6 +201,7 @@ export class App {
     if (!player || !motion) return;
     motion.sample(player.time, this.actor.frame);
     this.actor.time = player.time;
+    for (const each of this.terrains) each.goTo(player.time);
     for (const ghost of this.ghosts) {
       ghost.motion.sample(player.time, ghost.actor.frame);
       ghost.actor.time = player.time;
@@ -222,6 +227,12 @@ export class App {
   sample(samples: Samples): void {
     this.live?.sample(samples);
     this.trails?.add(samples);
+  }
+
+  /** Ground of a machine that lives has moved. */
+  deform(moved: Moved): void {
+    this.terrains[moved.terrain]?.take(moved);
+    this.world.invalidate();
   }
 
   message(message: FromServer): void {
@@ -271,6 +282,7 @@ export class App {
   /** Everything that depends on the frame that is shown. */
   refreshFrame(): void {
     this.actor.apply();
+    for (const each of this.terrains) each.update();
     this.legend.show(this.colours.scales());
     this.follower.update();
     this.arrows.update();

@@ -1,6 +1,7 @@
 // The connection to the server that the page came from. Frames are acknowledged once they are on the screen, so that the server
 // never has more than one on its way.
-import { COLUMN, FRAME, PACKAGE, SAMPLES, TABLE, type FromPage, type FromServer } from "./generated/records";
+import { COLUMN, FRAME, MOVES, PACKAGE, SAMPLES, TABLE, type FromPage, type FromServer } from "./generated/records";
+import type { Moves } from "./stage/terrain";
 
 const PATIENCE = [500, 1000, 2000, 4000]; // ms before the next attempt
 
@@ -16,6 +17,11 @@ export interface Samples {
   values: Float64Array;
 }
 
+/** How a terrain has moved. */
+export interface Moved extends Moves {
+  terrain: number;
+}
+
 /** What messages go over: a websocket, or the worker of a page whose machine is inside. */
 export interface Link {
   readonly readyState: number;
@@ -29,6 +35,7 @@ export interface Listener {
   onPackage(bytes: Uint8Array): void;
   onFrame(frame: Frame): void;
   onSamples(samples: Samples): void;
+  onMoves(moved: Moved): void;
   onMessage(message: FromServer): void;
   /** A table to be saved. */
   onTable(text: Uint8Array): void;
@@ -102,6 +109,8 @@ export class Connection {
       this.listener.onFrame({ number: view.getUint32(4, true), time: view.getFloat64(8, true), values });
     } else if (kind === SAMPLES) {
       this.listener.onSamples({ width: view.getUint32(4, true), values: new Float64Array(data, 8) });
+    } else if (kind === MOVES) {
+      this.listener.onMoves(movesIn(data, view));
     } else if (kind === TABLE) {
       this.listener.onTable(new Uint8Array(data, 4));
     } else if (kind === COLUMN) {
@@ -121,4 +130,11 @@ export class Connection {
     this.requests.get(request)?.(column);
     this.requests.delete(request);
   }
+}
+
+function movesIn(data: ArrayBuffer, view: DataView): Moved {
+  const [terrain, loads, count] = [4, 8, 12].map((at) => view.getUint32(at, true)) as [number, number, number];
+  const first = 16 + 4 * loads;
+  const [nodes, moves] = [new Uint32Array(data, first, count), new Int16Array(data, first + 4 * count, count)];
+  return { terrain, carried: new Float32Array(data, 16, loads), nodes, moves };
 }

@@ -76,6 +76,7 @@ function connect(link: () => Link, alone: boolean): void {
     },
     onFrame: (frame) => app?.take(frame),
     onSamples: (samples) => app?.sample(samples),
+    onMoves: (moved) => app?.deform(moved),
     onMessage: (message) => app?.message(message),
     onTable: (text) => app?.saveTable(text),
     onOther: () => location.reload(),

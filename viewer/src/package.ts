@@ -20,6 +20,11 @@ export class Arrays {
     return this.read(packed, "u4") as Uint32Array;
   }
 
+  /** Whole numbers of 16 bits, negative ones behind 65536. */
+  signed(packed: Packed): Int16Array {
+    return new Int16Array(this.read(packed, "u2").buffer);
+  }
+
   /** Numbers that came as steps. */
   rounded({ numbers, low, step }: Steps): Float32Array {
     const whole = this.read(numbers, "u2");

@@ -20,8 +20,9 @@ from nivel.integrate.loop.paced import BOUND, HIGH, LOW, RATE, REST, SHOWN, SPEE
 from nivel.integrate.loop.run import TIME, Run
 from nivel.kernels.core.block import Handle
 from nivel.kernels.output.observe import observe
+from nivel.known import SoilUnit
 from nivel.lazy import dataclass
-from nivel.live.shared import Sizes, arrays_in, put_back, taken
+from nivel.live.shared import Ground, Sizes, arrays_in, put_back, taken
 from nivel.machine.laws.time_function import Table
 from nivel.machine.laws.varying_value import Expression
 from nivel.machine.machine_record import MachineRecord
@@ -107,7 +108,18 @@ class LiveRun:
     @property
     def sizes(self) -> Sizes:
         """What the shared memory has room for."""
-        return Sizes(len(self.plan.machine.inputs), self.prepared.motion.system.layout.width)
+        soil = sum(start.size + forces for start, forces, _ in self.grounds)
+        return Sizes(len(self.plan.machine.inputs), self.prepared.motion.system.layout.width, soil=soil)
+
+    @property
+    def soils(self) -> list[SoilUnit]:
+        """Units of the machine that the page shows."""
+        return [each for each in self.prepared.motion.system.units if isinstance(each, SoilUnit)]
+
+    @property
+    def grounds(self) -> list[Ground]:
+        """Their soils as they lie before the run."""
+        return [(each.record.h, each.record.volume.size, each.cell) for each in self.soils]
 
     def session(self, live: Live) -> Handle:
         """Fill what the loop is told; what the loop knows it by."""

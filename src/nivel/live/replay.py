@@ -24,7 +24,7 @@ from nivel.judge.during.failure import failure
 from nivel.judge.during.stop import Stop
 from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.core.status import DONE as ENDED
-from nivel.lazy import dataclass, replace
+from nivel.lazy import dataclass, nivel, replace
 from nivel.live.preparation import LiveRun, prepared_run
 from nivel.live.recording import Recording, Take
 from nivel.live.shared import bytes_of, live_in
@@ -119,22 +119,27 @@ def replay(
     )
     outcome = RunOutcome("done")
     found = Comparison(take.frames)
-    for frames in _frames_of(again, take.tape, outcome):
+    pace, soils = recording.pace, again.soils
+    log = nivel.results.terrain.TerrainLog(soils, pace.every * pace.tick) if soils else None
+    for frames in _frames_of(again, take.tape, outcome, FRAMES_AT_ONCE if log is None else 1):
         sink.take(frames)
         found.take(frames)
+        if log is not None:
+            log.keep(float(frames[-1, 0]))
+    outcome.terrain = "" if log is None else log.attribute
     seconds = {"prepare_seconds": 0.0, "compile_seconds": compile_seconds}
     result = close_run(sink, run_of(replace(plan, machine=machine), prepared, outcome, sink.result()), seconds)
     return found.replay(result)
 
 
-def _frames_of(again: LiveRun, tape: Array, outcome: RunOutcome) -> Iterator[Array]:
-    """The frames of the run, in blocks; how it ended stands in `outcome` then."""
+def _frames_of(again: LiveRun, tape: Array, outcome: RunOutcome, count: int) -> Iterator[Array]:
+    """The frames of the run, in blocks of `count`; how it ended stands in `outcome` then."""
     memory = bytearray(bytes_of(again.sizes))
     live = live_in(memory, again.sizes)
     loop = again.begin(live)
     control = live.control
     control[FROM_TAPE] = 1
-    status, shown, chunk = BUDGET_SPENT, 0, FRAMES_AT_ONCE * again.pace.every
+    status, shown, chunk = BUDGET_SPENT, 0, count * again.pace.every
     while control[DONE] < len(tape) and status == BUDGET_SPENT:
         begin = int(control[DONE])
         stop = min(begin + chunk, len(tape))

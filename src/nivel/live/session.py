@@ -16,7 +16,7 @@ from nivel.live.light import Counts, Judge, Light
 from nivel.live.preparation import HAND_INPUTS, HAND_PULL, Pace, grip
 from nivel.live.recorder import History, Recorder
 from nivel.live.recording import Take, takes_of
-from nivel.live.shared import Sizes, bytes_of, copy_of, live_in
+from nivel.live.shared import Sizes, bytes_of, copy_of, live_in, soils_in
 from nivel.live.solver import Told, main
 from nivel.live.timing import Timing, timing_of
 from nivel.machine.core.vectors import Array
@@ -79,6 +79,7 @@ class Session:
             self._memory = SharedMemory(create=True, size=bytes_of(sizes))
             try:
                 self.live: Live = live_in(self._memory.buf, sizes)
+                self.soils = soils_in(self._memory.buf, sizes, self.facts["grounds"])
                 for array in self.live:
                     array[...] = 0
                 self._pipe.send(self._memory.name)
@@ -270,6 +271,7 @@ class Session:
         self._look()
         # what looks at the memory after it is gone reads a copy
         self.live = copy_of(self.live)
+        self.soils = [(heights.copy(), carried.copy()) for heights, carried in self.soils]
         self.recorder.detach(self.live)
         self._memory.close()
 

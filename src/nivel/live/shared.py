@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.preparation.memory import arrays_of
 from nivel.integrate.loop.paced import BINS, CLOCKS, CONTROLS, Live
+from nivel.machine.core.vectors import Array
 
 TAPE_ROWS: Final = 1 << 16  # a minute of ticks of 1 ms: what the recorder may be late by
 FRAME_ROWS: Final = 256  # four seconds of frames: what the server may be late by
@@ -17,13 +18,17 @@ RUN, PAUSE, STEP, RESET, SAVE, RESTORE, QUIT = 1, 2, 3, 4, 5, 6, 7
 STARTING, RUNNING, PAUSED, ENDED, FAILED, GONE = 0, 1, 2, 3, 4, 5
 
 
+Ground = tuple[Array, int, float]  # of a soil before the run: heights [m], forces on it, side of its cells [m]
+
+
 class Sizes(NamedTuple):
-    """Numbers of inputs of the machine and of columns of a frame, and rows of the rings."""
+    """Numbers of inputs of the machine and of columns of a frame, rows of the rings, heights of soils and volumes that are carried."""
 
     inputs: int
     width: int
     tape_rows: int = TAPE_ROWS
     frame_rows: int = FRAME_ROWS
+    soil: int = 0
 
 
 def _shapes(sizes: Sizes) -> dict[str, tuple[Any, tuple[int, ...]]]:
@@ -46,7 +51,7 @@ def _shapes(sizes: Sizes) -> dict[str, tuple[Any, tuple[int, ...]]]:
 
 def bytes_of(sizes: Sizes) -> int:
     """Room that the arrays need."""
-    return sum(_room(kind, shape) for kind, shape in _shapes(sizes).values())
+    return sum(_room(kind, shape) for kind, shape in _shapes(sizes).values()) + 8 * sizes.soil
 
 
 def _room(kind: Any, shape: tuple[int, ...]) -> int:
@@ -61,6 +66,15 @@ def live_in(memory: Any, sizes: Sizes) -> Live:
         arrays[name] = np.ndarray(shape, kind, buffer=memory, offset=place)
         place += _room(kind, shape)
     return Live(**arrays)
+
+
+def soils_in(memory: Any, sizes: Sizes, grounds: Sequence[Ground]) -> list[tuple[Array, Array]]:
+    """Heights [m] of soils and volumes that are carried of them [m³], behind the rest of the memory."""
+    numbers, out = np.frombuffer(memory, np.float64, sizes.soil, bytes_of(sizes) - 8 * sizes.soil), []
+    for start, forces, _ in grounds:
+        heights, carried, numbers = np.split(numbers, [start.size, start.size + forces])
+        out.append((heights.reshape(start.shape), carried))
+    return out
 
 
 def copy_of(live: Live) -> Live:

@@ -21,7 +21,7 @@ from nivel.kernels.core import status as codes
 from nivel.lazy import asdict, dataclass, field, nivel
 from nivel.live import shared
 from nivel.live.preparation import LiveRun, Pace, prepared_run
-from nivel.live.shared import Snapshot, arrays_in, live_in, put_back, taken
+from nivel.live.shared import Snapshot, arrays_in, live_in, put_back, soils_in, taken
 from nivel.live.timing import ENTRIES, become_urgent, give_clocks, shares
 from nivel.native import library
 
@@ -60,6 +60,10 @@ def main(pipe: Connection, plan: Plan, pace: Pace, urgent: bool, left: str) -> N
         memory = SharedMemory(pipe.recv())
     except (EOFError, FileNotFoundError):
         return
+    for soil, (heights, carried) in zip(
+        live_run.soils, soils_in(memory.buf, live_run.sizes, live_run.grounds), strict=True
+    ):
+        soil.move(h=heights, volume=carried)
     with contextlib.suppress(BrokenPipeError):
         Solver(live_run, live_in(memory.buf, live_run.sizes), pipe).live(urgent)
     # the arrays still look at the memory, which goes with the process
@@ -84,7 +88,12 @@ def _facts(live_run: LiveRun) -> dict[str, Any]:
     attributes = nivel.analysis.preparation.attributes.run_attributes(
         live_run.plan.machine, "", live_run.prepared, live_run.plan.settings
     )
-    return {"sizes": tuple(live_run.sizes), "layout": system.layout, "attributes": attributes}
+    return {
+        "sizes": tuple(live_run.sizes),
+        "grounds": live_run.grounds,
+        "layout": system.layout,
+        "attributes": attributes,
+    }
 
 
 class Solver:

@@ -2,13 +2,16 @@
 
 import threading
 import time
+from collections.abc import Callable
 from typing import Final, Literal, Protocol
 
 import numpy as np
 
+from nivel.lazy import nivel
 from nivel.live.picture import Picture
 from nivel.live.session import COMMANDS, Session
 from nivel.machine.core.vectors import Array
+from nivel.view.frames import moves_message
 from nivel.view.records import Command, Drive, Hold, Note, Status, Take
 from nivel.view.sources import Source
 
@@ -62,6 +65,14 @@ class LiveSource(Source):
     def samples(self, after: int) -> tuple[int, Array]:
         last, found = self._session.history.after(after)
         return last, np.array([self._picture.sample(frame) for frame in found])
+
+    def moves(self) -> Callable[[], list[bytes]]:
+        session = self._session
+        trackers = [nivel.results.terrain.Tracker(start, cell) for start, _, cell in session.facts["grounds"]]
+        return lambda: [
+            moves_message(k, *tracker.moves(heights), carried)
+            for k, (tracker, (heights, carried)) in enumerate(zip(trackers, session.soils, strict=True))
+        ]
 
     # --- operators ---
 

@@ -50,10 +50,12 @@ from nivel.known import (
     Beam,
     Belt,
     BeltDrive,
+    Blade,
     Contact,
     Force,
     HydraulicCylinder,
     Rope,
+    SoilUnit,
     TelescopicCylinder,
     TorsionalSpringDamper,
 )
@@ -114,7 +116,7 @@ def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
     ]
     sweeps = [_sweep(beam) for beam in machine.beams]
     around = [_shape(each) for each in machine.surroundings]
-    for name, ground in _grounds(machine):
+    for name, ground in _grounds(machine, system):
         if name == "ground":
             around.append(ground)
         else:
@@ -147,7 +149,7 @@ def _belts(machine: MachineRecord) -> Iterator[dict[str, Any]]:
         }
 
 
-def _grounds(machine: MachineRecord) -> Iterator[tuple[str, dict[str, Any]]]:
+def _grounds(machine: MachineRecord, system: System) -> Iterator[tuple[str, dict[str, Any]]]:
     """Ground whose height varies, as a mesh, and the body that it belongs to; the same ground of several contacts once."""
     contacts = [each for each in machine.forces if getattr(each, "heights", None) is not None]
     if not contacts:
@@ -162,7 +164,25 @@ def _grounds(machine: MachineRecord) -> Iterator[tuple[str, dict[str, Any]]]:
             m, markers = builder.end(plane), builder.markers
             vertices, triangles = nivel.elements.contacts.height_field.ground_surface(heights)
             surface = surface_text(vertices @ markers.frame[m].T + markers.position[m], triangles)
-            yield names[markers.body[m]], {"type": "mesh", "centre": [0.0, 0.0, 0.0], "surface": surface}
+            ground: dict[str, Any] = {"type": "mesh", "centre": [0.0, 0.0, 0.0], "surface": surface}
+            for unit in system.units:
+                if isinstance(unit, SoilUnit) and (unit.above[0].plane, unit.above[0].heights) == (plane, heights):
+                    ground["soil"] = _soil(unit, builder, m, names)
+            yield names[markers.body[m]], ground
+
+
+def _soil(unit: SoilUnit, builder: SystemBuilder, plane: int, names: list[str]) -> dict[str, Any]:
+    """Name of a soil, nodes along a row of its mesh, where its heights stand, and which buckets carry it, about which points."""
+    markers, loads = builder.markers, []
+    for slot, each in enumerate(unit.above):
+        if isinstance(each, Blade) and each.load_at is not None:
+            m, left, right = map(builder.end, (each.load_at, *each.edge))
+            half, place = 0.5 * (markers.position[left] - markers.position[right]), markers.position[m].tolist()
+            loads.append({"slot": slot, "body": names[markers.body[m]], "point": place, "half": half.tolist()})
+    (along, across), columns = unit.cell * markers.frame[plane].T[:2], len(unit.record.h)
+    corner = markers.position[plane] - 0.5 * ((columns - 1) * along + (unit.record.h.shape[1] - 1) * across)
+    frame = {"corner": corner.tolist(), "along": along.tolist(), "across": across.tolist()}
+    return {"name": unit.name, "columns": columns, "loads": loads} | frame
 
 
 def _gyration(body: Body, system: System, k: int) -> float:

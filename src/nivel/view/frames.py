@@ -1,15 +1,17 @@
 """One moment as one packed array: positions and Euler parameters of all bodies, modal coordinates, vectors."""
 
 import struct
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nivel.machine.core.vectors import Array
-from nivel.view.records import FRAME, SAMPLES, Layout
+from nivel.view.records import FRAME, MOVES, SAMPLES, Layout
 
 HEAD: Final = struct.Struct("<IId")  # what follows, number of the frame, its time
 SAMPLES_HEAD: Final = struct.Struct("<II")  # what follows, floats of a sample
+MOVES_HEAD: Final = struct.Struct("<IIII")  # what follows, number of the terrain, numbers of loads and moves
 
 
 def layout(bodies: int, modes: int = 0, vectors: int = 0) -> Layout:
@@ -35,3 +37,9 @@ def message(number: int, time: float, frame: Array) -> bytes:
 def samples_message(samples: Array) -> bytes:
     """The binary message of samples (n, width)."""
     return SAMPLES_HEAD.pack(SAMPLES, samples.shape[1]) + samples.astype("<f8").tobytes()
+
+
+def moves_message(terrain: int, nodes: NDArray[Any], moves: NDArray[Any], carried: Array) -> bytes:
+    """The binary message on a terrain: which vertices move by how many steps, and volumes that are carried [m³]."""
+    head = MOVES_HEAD.pack(MOVES, terrain, len(carried), len(nodes))
+    return head + carried.astype("<f4").tobytes() + nodes.astype("<u4").tobytes() + moves.astype("<i2").tobytes()

@@ -16,7 +16,7 @@ from nivel.view.couplings import couplings
 from nivel.view.extent import extent
 from nivel.view.package import Block, to_bytes
 from nivel.view.records import PROTOCOL, Arrow, Column, Flexible, Joint, Moment, Motion, Package, Sections, Stage
-from nivel.view.stage import Cast, cast, flexible
+from nivel.view.stage import Cast, cast, course, flexible
 
 MOST: Final = 20_000  # variables that are listed
 # of variables that belong to what is named after them
@@ -94,20 +94,21 @@ LARGEST: Final = 1e30  # [m] beyond it bodies are not drawn: 32-bit numbers coul
 @dataclass(frozen=True)
 class Budget:
     """Bytes that a motion, its columns, the strains of beams and the modal stresses of flexible bodies may take before compression; frames
-    that are shown at most; whether arrows come along, and the list of what can be plotted."""
+    that are shown and moves of terrains at most; whether arrows come along, and the list of what can be plotted."""
 
     motion: int
     columns: int
     frames: int
     sections: int = 0
     stress: int = 0
+    moves: int = 2_000_000
     vectors: bool = True
     plots: bool = True
 
 
 SERVED: Final = Budget(motion=64_000_000, columns=0, frames=20_000, sections=16_000_000, stress=24_000_000)
 ALONE: Final = Budget(motion=3_000_000, columns=1_000_000, frames=4_000, sections=500_000, stress=2_000_000)
-SMALL: Final = Budget(motion=600_000, columns=0, frames=1200, vectors=False, plots=False)
+SMALL: Final = Budget(motion=600_000, columns=0, frames=1200, moves=350_000, vectors=False, plots=False)
 
 
 def playback(results: Sequence[Result], budget: Budget) -> bytes:
@@ -153,11 +154,16 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
     modal = _read(result, "modal_coordinate", frames)
     rows = frame_plan.rows(position - np.array(where.origin), orientation, modal, vectors)
     bending, felt, colourless = flexible(scene, block, modal), None, []
+    past = nivel.results.terrain.terrains(result.attributes) if players.terrains else {}
+    terrains = [
+        replace(each, course=course(past[each.name].thinned(budget.moves), block)) if each.name in past else each
+        for each in players.terrains
+    ]
     if number == 0:
         bending, felt, colourless = _coloured(result, bending, frames, block, budget)
     return Stage(
         **vars(where),
-        **{**players.lists, "joints": drawn.joints or players.joints},
+        **{**players.lists, "joints": drawn.joints or players.joints, "terrains": terrains},
         name=result.name,
         title=str(result.path.name) if result.path else result.name,
         layout=frame_plan.layout(bodies, 0 if modal is None else modal.shape[1], vectors.shape[1]),

@@ -33,6 +33,8 @@ PACKAGE: Final = 1  # binary message: a package (package.py)
 FRAME: Final = 2  # binary message: number of the frame (32 bits), its time (64-bit float), then its floats (frames.py)
 SAMPLES: Final = 4  # binary message: floats of a sample (32 bits), then samples of 64-bit floats (frames.py)
 TABLE: Final = 5  # binary message: a table as text, of a page in which the machine lives
+# binary message: number of a terrain, numbers of loads and of moves (32 bits each), then volumes [m³] and nodes (32 bits), moves (16)
+MOVES: Final = 6
 COLUMN: Final = 3  # binary message: number of the request (32 bits), 4 bytes unused, then a column of 32-bit floats
 
 
@@ -258,6 +260,44 @@ class Sweep:
 
 
 @dataclass(frozen=True)
+class Load:
+    """Soil in a bucket, about a point of its frame. half : from there to the end of its edge. slot : of the volumes that are carried."""
+
+    slot: int
+    body: int
+    point: Triple
+    half: Triple
+
+
+@dataclass(frozen=True)
+class Course:
+    """How a terrain changes. time (k,) [s] : of moments; ends (k,) : numbers of moves up to each. nodes (n,) : that move, each as what is
+    added to the one before; moves (n,) : steps, negative ones behind 65536. carried (k, slots) [m³]."""
+
+    time: Packed
+    ends: Packed
+    nodes: Packed
+    moves: Packed
+    carried: Packed
+
+
+@dataclass(frozen=True)
+class Terrain:
+    """Ground that deforms: `heights` [m] of nodes in rows along x over a plane through `corner`; cells have the sides `along` and `across`.
+    They move by whole steps [m]; `course` : of a motion that is known, else moves come as messages.
+    """
+
+    name: str
+    corner: Triple
+    along: Triple
+    across: Triple
+    heights: Packed
+    step: float
+    loads: list[Load]
+    course: Course | None = None
+
+
+@dataclass(frozen=True)
 class Quantity:
     """What colours of beams can show, from `low` to `high` in the motion. rows : one of the numbers of a point, or the length of several.
 
@@ -420,6 +460,7 @@ class Stage:
     couplings: list[Coupling] = field(default_factory=list)
     sweeps: list[Sweep] = field(default_factory=list)
     surroundings: list[Part] = field(default_factory=list)
+    terrains: list[Terrain] = field(default_factory=list)
     flexible: list[Flexible] = field(default_factory=list)
     sections: Sections | None = None
     colourless: list[str] = field(default_factory=list)

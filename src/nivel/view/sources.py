@@ -40,6 +40,10 @@ class Source:
         """Of a live machine the samples (n, width) that follow number `after`, and the number of the last: see `Package.traced`."""
         return after, np.empty((0, 0))
 
+    def moves(self) -> Callable[[], list[bytes]]:
+        """For a page: messages on how terrains have moved since it asked last, or since the package."""
+        return list
+
     def column(self, stage: int, name: str) -> Array:
         """A column of a stage, one number a frame. Raises ModelError."""
         raise ModelError(f"there is no variable `{name}`")

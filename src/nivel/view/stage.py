@@ -7,15 +7,16 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.elements.joints import drawn
-from nivel.lazy import dataclass, replace
+from nivel.known import TerrainHistory
+from nivel.lazy import dataclass, nivel, replace
 from nivel.looks.poses import slides_on_beam, stands_at_second
 from nivel.looks.solids import colour_of, colour_of_body, held_points, link_ends, shapes_of
 from nivel.machine.bodies.surface import surface_arrays
 from nivel.machine.core.vectors import Array
 from nivel.view.acting import Acted
 from nivel.view.coordinate_places import triple
-from nivel.view.package import Block
-from nivel.view.records import Body, Flexible, Force, Joint, Marker, Part, Sweep
+from nivel.view.package import Block, Kind
+from nivel.view.records import Body, Course, Flexible, Force, Joint, Load, Marker, Part, Sweep, Terrain
 
 
 def _sweep(sweep: dict[str, Any], places: dict[str, int]) -> Sweep:
@@ -46,6 +47,7 @@ class Cast(Acted):
     markers: list[Marker]
     sweeps: list[Sweep]
     surroundings: list[Part]
+    terrains: list[Terrain]
 
     @property
     def lists(self) -> dict[str, Any]:
@@ -55,7 +57,7 @@ class Cast(Acted):
 
 def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
     """The elements of a machine. scene : as in a result; record : its machine record as JSON, which may be empty."""
-    bodies = scene.get("bodies", [])
+    bodies, around = scene.get("bodies", []), scene.get("surroundings", [])
     places = {body["name"]: k for k, body in enumerate(bodies)} | {"ground": -1}
     chains = {body: each for each in scene.get("sweeps", []) for body in each["bodies"]}
     drawn = [
@@ -71,8 +73,28 @@ def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
         drivers=acted.all_drivers(),
         markers=[_marker(each, places) for each in scene.get("markers", []) if each["body"] != "ground"],
         sweeps=[_sweep(each, places) for each in scene.get("sweeps", [])],
-        surroundings=[part(each, block) for each in scene.get("surroundings", [])],
+        surroundings=[part(each, block) for each in around if "soil" not in each],
+        terrains=[_terrain(each, places, block) for each in around if "soil" in each],
     )
+
+
+def _terrain(ground: dict[str, Any], places: dict[str, int], block: Block) -> Terrain:
+    """Ground with soil."""
+    soil, (vertices, _) = ground["soil"], surface_arrays(ground["surface"])
+    columns, corner, along, across = int(soil["columns"]), *(triple(soil[key]) for key in ("corner", "along", "across"))
+    normal, cell = np.cross(along, across), float(np.linalg.norm(along))
+    heights = (vertices - corner) @ (normal / cell**2)
+    loads = [
+        Load(each["slot"], places[each["body"]], triple(each["point"]), triple(each["half"])) for each in soil["loads"]
+    ]
+    packed = block.add(heights.reshape(-1, columns), "f4")
+    return Terrain(soil["name"], corner, along, across, packed, cell / nivel.results.terrain.STEPS, loads)
+
+
+def course(terrain: TerrainHistory, block: Block) -> Course:
+    """How a terrain changes, as a result has it."""
+    kinds: dict[str, Kind] = {"time": "f8", "ends": "u4", "nodes": "u4", "moves": "u2", "carried": "f4"}
+    return Course(**{name: block.add(getattr(terrain, name), kind) for name, kind in kinds.items()})
 
 
 def _marker(marker: dict[str, Any], places: dict[str, int]) -> Marker:

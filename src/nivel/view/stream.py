@@ -74,6 +74,7 @@ class Stream:
         self._fresh = asyncio.Event()  # there is a frame that was not sent
         self._seen = asyncio.Event()  # no frame is on its way
         self._seen.set()
+        self._moves = source.moves()
         self._number = 0
         self._sampled = 0  # number of the last sample that was sent
         # the newest only: a slider that is dragged says more than can be computed
@@ -112,6 +113,8 @@ class Stream:
             newest = self._source.frame()
             if newest is None:
                 continue
+            for each in self._moves():
+                await self._connection.send(each)
             self._number += 1
             content = message(self._number, *newest)
             self._seen.clear()

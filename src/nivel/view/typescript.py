@@ -11,7 +11,7 @@ from typing import Any, Final, Literal, Union, get_args, get_origin, get_type_hi
 from nivel.view import local, records
 
 PLAIN: Final = {str: "string", int: "number", float: "number", bool: "boolean", NoneType: "null"}
-NUMBERS: Final = ("PROTOCOL", "PACKAGE", "FRAME", "SAMPLES", "COLUMN", "TABLE")
+NUMBERS: Final = ("PROTOCOL", "PACKAGE", "FRAME", "SAMPLES", "COLUMN", "TABLE", "MOVES")
 
 
 def typescript() -> str:

@@ -6,6 +6,7 @@ export const FRAME = 2;
 export const SAMPLES = 4;
 export const COLUMN = 3;
 export const TABLE = 5;
+export const MOVES = 6;
 
 /** An array in the block of bytes. kind : f4, f8, u4 or u2, little-endian. start : its first byte. The bytes are shuffled, which compresses better: the first bytes of all numbers, then the second bytes, and so on. */
 export interface Packed {
@@ -151,6 +152,35 @@ export interface Sweep {
   smooth: boolean;
 }
 
+/** Soil in a bucket, about a point of its frame. half : from there to the end of its edge. slot : of the volumes that are carried. */
+export interface Load {
+  slot: number;
+  body: number;
+  point: [number, number, number];
+  half: [number, number, number];
+}
+
+/** How a terrain changes. time (k,) [s] : of moments; ends (k,) : numbers of moves up to each. nodes (n,) : that move, each as what is added to the one before; moves (n,) : steps, negative ones behind 65536. carried (k, slots) [m³]. */
+export interface Course {
+  time: Packed;
+  ends: Packed;
+  nodes: Packed;
+  moves: Packed;
+  carried: Packed;
+}
+
+/** Ground that deforms: `heights` [m] of nodes in rows along x over a plane through `corner`; cells have the sides `along` and `across`. They move by whole steps [m]; `course` : of a motion that is known, else moves come as messages. */
+export interface Terrain {
+  name: string;
+  corner: [number, number, number];
+  along: [number, number, number];
+  across: [number, number, number];
+  heights: Packed;
+  step: number;
+  loads: Load[];
+  course: Course | null;
+}
+
 /** What colours of beams can show, from `low` to `high` in the motion. rows : one of the numbers of a point, or the length of several. A point has 12: strains (stretch, two shears), twist and two curvatures; then force and moment of the section in its axes. */
 export interface Quantity {
   name: string;
@@ -267,6 +297,7 @@ export interface Stage {
   couplings: Coupling[];
   sweeps: Sweep[];
   surroundings: Part[];
+  terrains: Terrain[];
   flexible: Flexible[];
   sections: Sections | null;
   colourless: string[];

@@ -76,7 +76,7 @@ export class World {
       this.fitted = false;
     });
     this.floor = new Floor(stage, this.look);
-    this.floor.group.visible = !stage.surroundings.length; // they are the ground
+    this.floor.group.visible = !stage.surroundings.length && !stage.terrains.length; // they are the ground
     this.scene.add(this.floor.group, this.sky, this.sun, this.sun.target);
     this.light();
     this.recolour();

@@ -28,6 +28,7 @@ from nivel.judge.after.checks.accuracy import factor
 from nivel.judge.after.other_elements import Compared, Pair
 from nivel.judge.after.subject import Run, run_of
 from nivel.judge.before.refusals import sampled_times
+from nivel.known import SoilUnit
 from nivel.lazy import dataclass, nivel, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.estimate import TIMES, estimate_errors
@@ -420,7 +421,12 @@ def attempt(plan: Plan, sink: Memory | Store, options: Options, prepared: Prepar
         listener.say("running", settings.duration)
         leader = Leader() if second is None else second.leader
         leader.most = options.most
-        finished = march(prepared, settings, [sink], progress=listener.progress, pacing=leader, listener=listener)
+        soils = [each for each in prepared.motion.system.units if isinstance(each, SoilUnit)]
+        pacing = nivel.results.terrain.TerrainLog(soils, settings.output_interval, leader) if soils else leader
+        finished = march(prepared, settings, [sink], progress=listener.progress, pacing=pacing, listener=listener)
+        if not isinstance(pacing, Leader):
+            pacing.keep(finished.last[0] if finished.last else 0.0)
+            finished.terrain = pacing.attribute
         if finished.work > options.most:  # in the last chunk of steps
             finished.outcome = "interrupted"
         verified = None

@@ -68,7 +68,7 @@ class RunOutcome:
     run that failed in the last state that was accepted. status : of the compiled loop.
     ends : (n,) [s] the start and the ends of all steps, where steps were chosen and looked at; impulses, hurried : of `NarrowFeatures`.
     went_on : the integrator that went on where the run became stiff, and from when [s].
-    between_frames : of `Probes`. work : of `nivel.analysis.progress.pacing`.
+    between_frames : of `Probes`. work : of `nivel.analysis.progress.pacing`. terrain : of `nivel.results.terrain`.
     """
 
     outcome: str
@@ -86,6 +86,7 @@ class RunOutcome:
     went_on: tuple[str, float] | None = None
     between_frames: dict[str, list[float]] = field(default_factory=dict)
     work: int = 0
+    terrain: str = ""
 
 
 class Loop(NamedTuple):

@@ -291,6 +291,8 @@ def close_run(
         steps, total, most = finished.pace[[STEPPED, ITERATED, MOST_ITERATED]]
         if iterated := iterations_in_json(steps, total, most, plan.settings.duration):
             attributes[ITERATIONS] = iterated
+    if finished.terrain:
+        attributes[nivel.results.terrain.ATTRIBUTE] = finished.terrain
     if finished.went_on is not None:
         attributes["settings"] = settings_in_json(plan.settings, plan.reason, finished.went_on)
     if judge:

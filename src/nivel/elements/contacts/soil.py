@@ -92,16 +92,17 @@ class OnSoil(ForceElement):
 
 
 class SoilUnit:
-    """The cells of one soil of a machine."""
+    """The cells of one soil of a machine. name : of the soil. cell [m] : their sides. above : forces on it, as what they carry stands."""
 
-    failure, arrays, law = "", (), address_of
+    failure, arrays, law, name = "", (), address_of, ""
+    above: Sequence[OnSoil] = ()
 
     def __init__(self, soil: Soil, heights: HeightField, forces: int, gravity: Array, origin: float) -> None:
         """gravity (3,) [m/s²] : along the axes of the plane. origin [m²/s²] : gravity times the place of the first node."""
         h = np.array(heights.heights.T, order="C")
-        cell = heights.size[0] / (h.shape[0] - 1)
+        self.cell = heights.size[0] / (h.shape[0] - 1)
         self.record = Cells(
-            number=np.array(SoilRow.of(soil, cell=cell, gravity=gravity.tolist(), origin=origin).numbers),
+            number=np.array(SoilRow.of(soil, cell=self.cell, gravity=gravity.tolist(), origin=origin).numbers),
             sum=np.zeros(SUMS),
             h=h,
             rest=h.copy(),
@@ -116,9 +117,15 @@ class SoilUnit:
             edge=np.zeros((forces, 6)),
             body=np.zeros((forces, 13)),
         )
-        self._changes = self.record[1:-1]  # the body without load stays
-        self._start = self.state()
         self.handle = Handle(self.record)
+        self._start = self.state()
+
+    def move(self, **arrays: Array) -> None:
+        """Let arrays of the record stand in other memory from now on."""
+        for name, array in arrays.items():
+            array[...] = getattr(self.record, name)
+        self.record = self.record._replace(**arrays)
+        self.handle.become(self.record)
 
     def begin(self) -> None:
         """As the machine file has it."""
@@ -126,14 +133,14 @@ class SoilUnit:
 
     def state(self) -> bytes:
         """All that changes in a run."""
-        return b"".join(each.tobytes() for each in self._changes)
+        return b"".join(each.tobytes() for each in self.record[1:-1])  # the body without load stays
 
     def restore(self, content: bytes) -> None:
         """Go back to a state. Raises ModelError where it is of other cells."""
         if len(content) != len(self._start):
             raise ModelError("the state is of soil with other cells, or with other forces on it")
         place = 0
-        for each in self._changes:
+        for each in self.record[1:-1]:
             each.ravel()[:] = np.frombuffer(content, each.dtype, each.size, place)
             place += each.nbytes
 
@@ -161,6 +168,7 @@ def add_soil(builder: SystemBuilder, force: OnSoil) -> dict[str, int]:
             raise ModelError(Fault.at(f"forces.{force.name}.heights", message))
         gravity, corner = np.array(builder.machine.gravity), point - 0.5 * axes[:, :2] @ np.array(force.heights.size)
         unit: Any = SoilUnit(force.soil, force.heights, len(same), gravity @ axes, float(gravity @ corner))
+        unit.name, unit.above = name, same
         builder.functions.units[name] = unit
     text = f"time at which {force.name} changed its soil last"
     state = builder.own_state(StateFact(f"{force.name}.changed", "s", text, -force.soil.period, 1.0, sampled=True))

@@ -21,6 +21,11 @@ class Handle:
         self._block = np.array(_descriptors(record, []), dtype=np.int64)
         self.address = np.uint64(self._block.ctypes.data)
 
+    def become(self, record: Any) -> None:
+        """Another record of the same kind stands at this address from now on."""
+        self.record = record
+        self._block[:] = _descriptors(record, [])
+
 
 def _descriptors(record: Any, words: list[int]) -> list[int]:
     """The words of Numba's array structures, field by field: owner and parent (none), items, item size, data, shape, strides."""

@@ -56,8 +56,12 @@ NAMED = [
              "1.0 + n * (n + slope * s_m / f_m - 1.9)", verification("tyres")),
     Spoilt("soil: cohesion of the wedge", "elements/contacts/soil_cells.py", "np.sin(beta + phi) + held", "np.sin(beta + phi) + 0.9 * held",
              verification("soil")),
-    Spoilt("soil: pressure at which it yields", "elements/contacts/on_soil.py", "minimum(elastic, number[SoilRow.MODULUS]",
+    Spoilt("soil: pressure at which it yields", "elements/contacts/soil_cells.py", "minimum(elastic, number[SoilRow.MODULUS]",
              "minimum(elastic, 1.1 * number[SoilRow.MODULUS]", verification("soil")),
+    Spoilt("track: what a patch hands on", "elements/contacts/tracks.py", "left * sx - (1.0 - left) * vx / speed", "left * sx",
+             verification("tracks")),
+    Spoilt("track: moment on the sprocket", "elements/contacts/tracks.py", "driven - n[ForceRow.RADIUS] * fx",
+             "driven - 0.9 * n[ForceRow.RADIUS] * fx", verification("tracks")),
     Spoilt("soil: impulse of what is pushed ahead", "elements/contacts/on_soil.py", "SoilRow.DENSITY] * (taken - ahead) * v[c]",
              "SoilRow.DENSITY] * taken * v[c]", verification("soil")),
     # constraints

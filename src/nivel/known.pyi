@@ -31,7 +31,6 @@ from nivel.elements.contacts.contact import Contact as Contact
 from nivel.elements.contacts.contact import Contacts as Contacts
 from nivel.elements.contacts.contact import Material as Material
 from nivel.elements.contacts.shapes import Hull as Hull
-from nivel.elements.contacts.soil import OnSoil as OnSoil
 from nivel.elements.contacts.soil import SoilUnit as SoilUnit
 from nivel.elements.control import ControlBlock as ControlBlock
 from nivel.elements.control.held import Delay as Delay

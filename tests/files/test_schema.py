@@ -18,6 +18,7 @@ OF_FILES = {
     "Tyre": {"tyre", "ground"},
     "Blade": {"ground"},
     "SoilWheel": {"ground"},
+    "Track": {"ground"},
     "Contact": {"ground"},
 }  # keys that only files have
 

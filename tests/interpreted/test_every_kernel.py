@@ -382,20 +382,29 @@ def test_control_and_drives(integrator):
 
 
 def test_soil_is_pressed_cut_and_carried():
-    """A wheel that sinks in, and a blade that takes in more than it keeps."""
+    """A wheel that sinks in, a blade that takes in more than it keeps, a track that sinks in and one on hard ground."""
     level = {"size": [3, 3], "function": "0", "points": [31, 31]}
     soil = {"plane": "floor", "heights": level, "soil": {"cohesion": 1e3, "period": STEP}}
     hub = {"body": "roller", "axis": [0, 1, 0]}
+
+    def belt(name):
+        ends = [{"body": name, "position": [x, 0, 0]} for x in (0.4, -0.4)]
+        return {"type": "track", "contact": ends, "sprocket": hub, "radius": 0.2, "width": 0.2, "patches": 2}
+
     edge = [{"body": "bucket", "position": [0.1, y, 0]} for y in (0.2, -0.2)]
     sections = {
         "bodies": {
             "roller": solid(position=[-0.5, 0, 0.25], velocity=[1, 0, 0], angular_velocity=[0, 3, 0]),
             "bucket": solid(position=[0.4, 0, -0.15], velocity=[5, 0, 0]),
+            "crawler": solid(position=[0, 1, -0.02], velocity=[0.5, 0, 0]),
+            "tractor": solid(position=[0, -1, -0.01], velocity=[-0.5, 0, 0]),
         },
         "markers": {"floor": {"body": "ground", "axis": [0, 0, 1]}},
         "forces": {
             "rolls": {"type": "soil-wheel", "wheel": hub, "radius": 0.3, "width": 0.2, **soil},
             "digs": {"type": "blade", "edge": edge, "capacity": 1e-3, **soil},
+            "crawls": {**belt("crawler"), **soil},
+            "drives": {**belt("tractor"), "plane": "floor", "heights": level},
         },
     }
     short(machine(sections).record, steps=8)

@@ -138,6 +138,9 @@ TYRE = {"type": "tyre", "wheel": {"body": "c", "axis": [0.1, 1, 0.2]}, "plane": 
         "stiffness": 900, "damping": 3, "along": {"stiffness": 700, "damping": 4}, "across": {"stiffness": 500, "damping": 4}}  # fmt: skip
 SOIL = {"plane": "floor", "heights": {"size": [6, 6], "function": "0.1*x + 0.07*y", "points": [61, 61]},
         "soil": {"density": 4, "cohesion": 3, "modulus": 2e3, "unloading": 5e4}}  # fmt: skip
+BELT = {"type": "track", "radius": 0.3, "width": 0.2, "sprocket": {"body": "a", "axis": [0.1, 1, 0.2]},
+        "contact": [{"body": "c", "position": [0.19, -0.22, 0.28], "axis": [-0.67, 0.17, 0.73]},
+                    {"body": "c", "position": [-0.19, 0.22, -0.28]}]}  # fmt: skip
 # slips at which this one rolls
 ROLLS = {way: {**TYRE[way], "peak_slip": [4, 4.5], "sliding_slip": [20, 22]} for way in ("along", "across")}
 LEVER = {"range": [-1, 1], "signal": {"times": [0, 1], "values": [0.1, 0.5]}}
@@ -311,6 +314,11 @@ CASES = {
                           ("c", "", [-0.5, 0.9, 0.1]), True),
     "blade": Case({"type": "blade", "edge": [{"body": "c", "position": [0.1, 0.3, 0]}, {"body": "c", "position": [0.1, -0.3, 0]}], **SOIL},
                   ("c", "", [-0.5, 0.9, -0.2]), True),
+    "track": Case({**BELT, "plane": "floor", "stiffness": 900, "patches": 4}, ("c", "", [-0.5, 0.9, 0.02]), True),
+    "track on a body": Case({**BELT, "plane": "eye", "stiffness": 900, "grip": 0.5, "patches": 3}, ("c", "b", [0.05, 0.02, 0.05])),
+    "track on heights": Case({**BELT, "plane": "floor", "heights": HILLS, "stiffness": 900, "grip": "0.6 + 0.3*sin(x + 2*y + time)",
+                              "patches": 4}, ("c", "", [-0.5, 0.9, 0.4])),
+    "track on soil": Case({**BELT, "patches": 4, **SOIL}, ("c", "", [-0.5, 0.9, -0.05])),
     "hand": Case({"type": "hand", "pull": "0.8 + 0.1*time", "body_number": 1, "point": [0.1, -0.2, 0.3], "towards": ["time", 1, "tip.x"]}),
     "coulomb": Case({**RUBBING, "model": "coulomb", "transition_speed": 0.5, "viscous": 0.1}),
     "coulomb, given load": Case({**RUBBING, "model": "coulomb", "transition_speed": 0.5, "normal_load": 20}),

@@ -19,7 +19,13 @@ FORMAT: Final = 1
 VALUES: Final = ("parameters", "functions")  # sections of what has no keys of its own
 SETS: Final = {"tyres": "tyre", "ground": "ground"}  # sections of keys that forces share, and the key that names one
 # types of forces that name a set, and keys of `ground` that they do not have
-NAMING: Final = {"tyre": ("soil",), "contact": ("grip", "soil"), "blade": ("grip",), "soil-wheel": ("grip",)}
+NAMING: Final = {
+    "tyre": ("soil",),
+    "contact": ("grip", "soil"),
+    "blade": ("grip",),
+    "soil-wheel": ("grip",),
+    "track": (),
+}
 TOP_WORDS: Final = ("format", *VALUES, *SETS, *field_words(MachineRecord))
 FILE_WORDS: Final = ("include", "assemblies")  # words of files that a record does not have
 NAMED: Final = (*SECTIONS, *VALUES, *SETS, "assemblies")  # what maps names to something

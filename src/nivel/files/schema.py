@@ -31,7 +31,7 @@ def schema() -> dict[str, Any]:
     definitions["Joint"]["properties"] |= {
         key: {"anyOf": _forms(key, definitions), "description": text} for key, text in DESCRIBED.items()
     }
-    tyre, contact, *on_soil = (definitions[name] for name in ("Tyre", "Contact", "Blade", "SoilWheel"))
+    tyre, contact, *on_soil = (definitions[name] for name in ("Tyre", "Contact", "Blade", "SoilWheel", "Track"))
     shared = {
         "tyres": {word: each for word, each in tyre["properties"].items() if word not in ("name", "type", "wheel")},
         "ground": {word: tyre["properties"][word] for word in ("plane", "heights", "grip")}

@@ -194,6 +194,8 @@ MENTIONS: Final = (
     "wheel",
     "edge",
     "load_at",
+    "contact",
+    "sprocket",
     "fluid",
 )
 

@@ -255,7 +255,7 @@ def integrators_for(machine: MachineRecord) -> tuple[tuple[str, str], ...]:
         impacts = any(isinstance(force, Contact | Contacts | Stop) for force in machine.forces)
         names = (FOR_STIFF, "bdf", "generalised-alpha") if impacts else ("generalised-alpha", FOR_STIFF, "bdf")
         return (*((name, STIFF_BEAMS) for name in names), ("dopri5", EXPLICIT_BEAMS), ("rk4", FIXED))
-    if any(force.type in ("tyre", "blade", "soil-wheel") for force in machine.forces):
+    if any(force.type in ("tyre", "track", "blade", "soil-wheel") for force in machine.forces):
         return (("rk4", TYRES),)
     if any(force.sticks for force in machine.forces):
         return ((FOR_STIFF, STICKING), ("dopri5", STICKING), ("rk4", FIXED))

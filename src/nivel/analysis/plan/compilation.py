@@ -306,7 +306,7 @@ def _rare_modules(machine: MachineRecord) -> list[str]:
         SENSOR: bool(machine.sensors),
         SAMPLING: any(state.update is not None for state in machine.states)
         or bool(machine.control or types & {*DRIVES}),
-        ON_SOIL: bool(types & {"blade", "soil-wheel"}),
+        ON_SOIL: any(getattr(force, "soil", None) for force in machine.forces),
         OF_BEAMS: any(nivel.elements.beams.models.family_of(beam).code.name == ELASTIC for beam in machine.beams),
     }
     return [module for module, asked in needed.items() if asked]

@@ -1,4 +1,4 @@
-"""Forces on soil: blades and buckets that cut it and carry it, rigid wheels that sink into it; and what they do to its cells at samples.
+"""Forces on soil: blades and buckets that cut and carry it, wheels and tracks that sink into it; and what they do to its cells at samples.
 
 **Blade.** The wedge before the edge resists with the share s of its force, ds = (1 - s) dx/l into the soil and s dx/l out of it, so that
 it never pulls and stands still at rest. The floor behind the edge bears as a strip foundation (Terzaghi; N_γ of Vesic 1973), likewise.
@@ -8,14 +8,28 @@ body from one sample to the next; it was at rest, so its impulse acts on the bod
 **Wheel.** Pressure k z^n is a yield that memory follows, with elastic return; shear is (c + p tan φ) s, ds = (v - |v| s) dt/K for each
 cell, which for one direction is 1 - exp(-j/K) (Janosi, Hanamoto 1961; cells: Krenn, Gibbesch 2011). At rest nothing creeps.
 
+**Track.** See `nivel.elements.contacts.tracks`.
+
 All work on soil is lost but what it stores as potential energy; that of a sample goes to the account of losses until the next one.
 """
 
 import numpy as np
 
-from nivel.elements.contacts.soil import MOVED_OUT, SoilRow
-from nivel.elements.contacts.soil_cells import FAR, cut, failure_angle, nodes_between, pour, slide, wedge
-from nivel.elements.rows import Row, element
+from nivel.elements.contacts.soil import MOVED_OUT, ForceRow, SoilRow
+from nivel.elements.contacts.soil_cells import (
+    FAR,
+    cut,
+    failure_angle,
+    mobilised_rate,
+    nodes_between,
+    pour,
+    pressure_at,
+    seen_from_corner,
+    slide,
+    wedge,
+)
+from nivel.elements.contacts.tracks import OUTPUTS, crawl, press_cells
+from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import absolute, arctan2, maximum, minimum, real
 from nivel.kernels.algebra.spatial import cross, dot
 from nivel.kernels.algebra.vectors import axis, minus, plus, put, seen, seen_flat, times, turned, turned_flat
@@ -27,43 +41,12 @@ from nivel.kernels.record.record import NONE, record_at
 from nivel.kernels.signals.functions import fill_samples
 from nivel.native.function import leaf, part, stage
 
-MOBILISED = 0.01  # [m] of motion over which the resistance of soil comes
 SHALLOW = 0.02  # [m] of depth over which the floor comes to bear
 FALLS = 0.15  # [s] in which most of what the mouth does not hold falls out
 LEAST_RAKE, REST = 0.26, 0.2  # [rad] between which a rake counts as it is: from the first to π - δ - φ - the second
 STEEP = 0.1  # least cosine of the rim against the ground
 NEAR = 1e-6  # share of the period
 DAMPS = 2e-3  # [s] by which pressure and shear are ahead, as a damper makes them: what stands on soil comes to rest
-
-
-class ForceRow(Row):
-    """A force on soil: of a WHEEL, whose marker has z along the axle, or of a blade, with markers of both ends of the edge and of the
-    middle of the LOAD, and two shares as states. PLANE : a marker; CHANGED : the state that is the time of the last change."""
-
-    output: int
-    cells: int
-    slot: int
-    plane: int
-    changed: int
-    wheel: int = NONE
-    left: int = NONE
-    right: int = NONE
-    load: int = NONE
-    push: int = NONE
-    bearing: int = NONE
-    rake: float = 0.0
-    capacity: float = 0.0
-    floor: float = 0.0
-    radius: float = 0.0
-    width: float = 0.0
-
-
-@stage
-def seen_from_corner(cells, markers, plane, p):
-    """A point in axes of the plane from the first node."""
-    half = 0.5 * cells.number[SoilRow.CELL]
-    corner = half * (cells.h.shape[0] - 1), half * (cells.h.shape[1] - 1), 0.0
-    return plus(seen(markers.A[plane], minus(p, markers.r[plane])), corner)
 
 
 @stage
@@ -78,12 +61,6 @@ def look_at_edge(markers, index, n, cells):
     most = np.pi - number[SoilRow.TOOL_FRICTION] - number[SoilRow.FRICTION_ANGLE] - REST
     rake = minimum(maximum(n[ForceRow.RAKE] + down, LEAST_RAKE + 0.0 * down), most + 0.0 * down)
     return a + b, fx / level, fy / level, down, rake
-
-
-@leaf
-def mobilised_rate(v, s):
-    """Rate of the share of a resistance at the speed v against it."""
-    return (maximum(v, 0.0 * v) * (1.0 - s) + minimum(v, 0.0 * v) * s) / MOBILISED
 
 
 @leaf
@@ -192,17 +169,6 @@ def cut_with_blade(machine, index, n, cells):
 
 
 @leaf
-def pressure_at(cells, i, j, bottom, ahead):
-    """Pressure on a rim that is at the height `bottom` over node (i, j), and elastically so much deeper."""
-    number = cells.number
-    elastic = maximum(number[SoilRow.UNLOADING] * (cells.h[i, j] - bottom + ahead), 0.0 * bottom)
-    sinkage = cells.rest[i, j] - bottom
-    if real(sinkage) <= 0.0:
-        return 0.0 * elastic
-    return minimum(elastic, number[SoilRow.MODULUS] * sinkage ** number[SoilRow.EXPONENT])
-
-
-@leaf
 def sheared(s, v, speed, share):
     """The share of the strength behind `share` = dt/K seconds by metre of sliding with v, of size `speed`: of ds = (v - |v| s) dt/K."""
     q = speed * share
@@ -245,7 +211,7 @@ def roll_wheel(machine, index, n, cells, passed, changes):
             bottom = c[2] - upward
             # the rim over the soil: along it, and across
             lifted, cosine, sine = up + roll * across, maximum(upward / R, STEEP + o), along / R
-            pressure = pressure_at(cells, p, q, bottom, -ahead * lifted)
+            pressure = pressure_at(number, cells.h[p, q], cells.rest[p, q], bottom, -ahead * lifted)
             vt = (forth - yaw * across) * cosine + lifted * sine - spin * R
             va = aside + yaw * along + roll * upward
             speed = np.sqrt(vt * vt + va * va + 1e-24)
@@ -278,14 +244,18 @@ def apply(machine, index, n, t):
     cells = cells_at(np.uint64(real(evaluate_function(machine, index[ForceRow.CELLS], t))))
     out, sums, slot, period = record.outputs.value, cells.sum, index[ForceRow.SLOT], cells.number[SoilRow.PERIOD]
     passed, first = real(t - record.elements.state[index[ForceRow.CHANGED]]), np.int64(index[ForceRow.OUTPUT])
-    if index[ForceRow.WHEEL] == NONE:
-        told = push_blade(machine, index, n, cells, passed)
+    if index[ForceRow.FRONT] != NONE:
+        power, behind = crawl(machine, index, n, cells, DAMPS), OUTPUTS
     else:
-        told = roll_wheel(machine, index, n, cells, passed, False)
-    put(out, first, told[:3])
-    put(out, first + 3, told[3:])
-    put(out, first + MOVED_OUT, (cells.moved[slot], sums[ADDED] + cells.volume.sum(), sums[BEYOND]))
-    record.control.power[1] -= told[1]
+        if index[ForceRow.WHEEL] == NONE:
+            told = push_blade(machine, index, n, cells, passed)
+        else:
+            told = roll_wheel(machine, index, n, cells, passed, False)
+        put(out, first, told[:3])
+        put(out, first + 3, told[3:])
+        power, behind = told[1], MOVED_OUT
+    put(out, first + behind, (cells.moved[slot], sums[ADDED] + cells.volume.sum(), sums[BEYOND]))
+    record.control.power[1] -= power
     left = 1.0 - passed / period
     if slot == 0:
         record.control.stored[0] += sums[STORED] + sums[LOST] * max(left, 0.0)
@@ -308,7 +278,9 @@ def sample(machine, job, t):
         if slot == 0:
             cells.turn[STAMP] += 1
             sums[LOST] = sums[STORED] + max(1.0 - passed / period, 0.0) * sums[LOST]
-        if index[ForceRow.WHEEL] == NONE:
+        if index[ForceRow.FRONT] != NONE:
+            press_cells(machine, index, n, cells)
+        elif index[ForceRow.WHEEL] == NONE:
             cut_with_blade(machine, index, n, cells)
         else:
             roll_wheel(machine, index, n, cells, passed, True)

@@ -19,6 +19,7 @@ from nivel.elements.rows import Row, several
 from nivel.errors import Fault, ModelError
 from nivel.kernels.core.block import Handle
 from nivel.kernels.elements.soil import SUMS, Cells, address_of
+from nivel.kernels.record.record import NONE
 from nivel.known import SystemBuilder
 from nivel.machine.control.part import UnitFacts, UnitOutput
 from nivel.machine.core.coefficient import NotNegativePressure, PositiveAngle, PositiveNumber
@@ -73,7 +74,44 @@ class SoilRow(Row):
     origin: float
 
 
-MOVED_OUT = 6  # place of the first output that all forces on soil have, behind their own
+class ForceRow(Row):
+    """A force on soil: of a WHEEL, whose marker has z along the axle; of a blade, with markers of both ends of the edge and of the middle
+    of the LOAD, and two shares as states; or of a track, also on hard ground, with markers of the ends of its belt and of its SPROCKET,
+    shares of what resists ahead (PUSH) and behind (BEARING), and two SHARES of each patch, as states.
+
+    PLANE : a marker; CHANGED : the state that is the time of the last change; GRIP : a function; UNEVEN : whether hard ground has heights.
+    WORK : of each patch its normal and its strength [N], and behind them the heights of hard ground."""
+
+    output: int
+    cells: int = NONE
+    slot: int = 0
+    plane: int
+    changed: int = NONE
+    wheel: int = NONE
+    left: int = NONE
+    right: int = NONE
+    load: int = NONE
+    push: int = NONE
+    bearing: int = NONE
+    front: int = NONE
+    rear: int = NONE
+    sprocket: int = NONE
+    grip: int = NONE
+    uneven: int = 0
+    patches: int = 0
+    shares: Sequence[int] = several(default=())
+    rake: float = 0.0
+    capacity: float = 0.0
+    floor: float = 0.0
+    radius: float = 0.0
+    width: float = 0.0
+    shear_length: float = 0.0
+    stiffness: float = 0.0
+    damping: float = 0.0
+    work: Sequence[float] = several(default=())
+
+
+MOVED_OUT = 6  # place of the first output that all forces on soil have, behind those of a blade or a wheel
 ON_SOIL = (
     Output("moved", "m^3", "volume that was cut, dropped or pressed down so far"),
     Output("balance", "m^3", "volume of cells and loads less that at the start: zero, what was pressed down left out"),
@@ -145,14 +183,19 @@ class SoilUnit:
             place += each.nbytes
 
 
-def add_soil(builder: SystemBuilder, force: OnSoil) -> dict[str, int]:
+def is_on_soil(force: ForceElement) -> bool:
+    """Whether cells of soil bear a force: a track may be on hard ground."""
+    return getattr(force, "soil", None) is not None
+
+
+def add_soil(builder: SystemBuilder, force: Any) -> dict[str, int]:
     """Columns of an element on soil: its first output, the function that says where the cells are, the number of the force among those on
     them, the marker of the plane, and the state that is the time of the last change.
 
     Raises ModelError for ground that cannot be soil.
     """
     own = force.plane, force.heights, force.soil
-    others = [each for each in builder.machine.forces if isinstance(each, OnSoil)]
+    others: list[Any] = [*filter(is_on_soil, builder.machine.forces)]
     same = [each for each in others if (each.plane, each.heights, each.soil) == own]
     name = f"soil of {same[0].name}"
     if name not in builder.functions.units:

@@ -13,8 +13,9 @@ import numpy as np
 
 from nivel.elements.contacts.soil import SoilRow
 from nivel.kernels.algebra.analytic import arctan2, maximum, minimum, real
+from nivel.kernels.algebra.vectors import minus, plus, seen
 from nivel.kernels.elements.soil import ADDED, BEYOND, COUNT, FIRST, STAMP, STORED
-from nivel.native.function import leaf, part
+from nivel.native.function import leaf, part, stage
 
 LINES, FARTHEST = 4, 100  # places along an edge at which the wedge is looked at, and cells ahead at most
 SHARE = 0.25  # of the excess over the angle of repose that a node gives to a neighbour at once
@@ -22,18 +23,25 @@ MOST_SLIDES = 1500  # nodes that slide in a period; others wait
 TOUCHED = 1.001  # of the steepest slope, beyond which a node slides
 POURED = 5  # cells along which soil falls before an edge
 UNCUT = 1.5  # cells ahead of an edge, from where on soil is as it was
+MOBILISED = 0.01  # [m] of motion over which the resistance of soil comes
 FAR = 1e9  # [m] beyond which a place is none
 
 
 @leaf
-def height_at(cells, x, y):
-    """Height between the nodes, by straight lines; beyond the border it goes on."""
-    h, cell, o = cells.h, cells.number[SoilRow.CELL], 0.0 * x
+def between_nodes(h, cell, x, y):
+    """A number of the nodes between them, by straight lines; beyond the border it goes on."""
+    o = 0.0 * x
     n, m = h.shape
     u, v = minimum(maximum(x / cell, o), n - 1.0 + o), minimum(maximum(y / cell, o), m - 1.0 + o)
     i, j = min(np.int64(real(u)), n - 2), min(np.int64(real(v)), m - 2)
     u, v = u - i, v - j
     return (h[i, j] * (1.0 - u) + h[i + 1, j] * u) * (1.0 - v) + (h[i, j + 1] * (1.0 - u) + h[i + 1, j + 1] * u) * v
+
+
+@leaf
+def height_at(cells, x, y):
+    """Height between the nodes."""
+    return between_nodes(cells.h, cells.number[SoilRow.CELL], x, y)
 
 
 @leaf
@@ -46,6 +54,31 @@ def failure_angle(rho, phi, delta):
     c = 1.0 / np.tan(rho + delta + phi)
     u = np.sqrt((1.0 / np.tan(rho) - c) * (1.0 / np.tan(phi) - c)) - c
     return arctan2(1.0 + 0.0 * u, u)
+
+
+@stage
+def seen_from_corner(cells, markers, plane, p):
+    """A point in axes of the plane from the first node."""
+    half = 0.5 * cells.number[SoilRow.CELL]
+    corner = half * (cells.h.shape[0] - 1), half * (cells.h.shape[1] - 1), 0.0
+    return plus(seen(markers.A[plane], minus(p, markers.r[plane])), corner)
+
+
+@leaf
+def pressure_at(number, h, rest, bottom, ahead):
+    """Pressure of soil of the height h, pressed down from the height `rest`, on what is at the height `bottom` and elastically so much
+    deeper."""
+    elastic = maximum(number[SoilRow.UNLOADING] * (h - bottom + ahead), 0.0 * bottom)
+    sinkage = rest - bottom
+    if real(sinkage) <= 0.0:
+        return 0.0 * elastic
+    return minimum(elastic, number[SoilRow.MODULUS] * sinkage ** number[SoilRow.EXPONENT])
+
+
+@leaf
+def mobilised_rate(v, s):
+    """Rate of the share of a resistance at the speed v against it."""
+    return (maximum(v, 0.0 * v) * (1.0 - s) + minimum(v, 0.0 * v) * s) / MOBILISED
 
 
 @part

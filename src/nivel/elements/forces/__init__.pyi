@@ -45,4 +45,5 @@ from nivel.elements.forces.springs import TorsionalSpringDamper as TorsionalSpri
 from nivel.elements.forces.synchronous_motors import SynchronousMotor as SynchronousMotor
 from nivel.elements.forces.terramechanics import Blade as Blade
 from nivel.elements.forces.terramechanics import SoilWheel as SoilWheel
+from nivel.elements.forces.terramechanics import Track as Track
 from nivel.elements.forces.tyre import Tyre as Tyre

@@ -1,6 +1,6 @@
-"""Terramechanics: blades and buckets that cut soil, carry it and let it fall, and rigid wheels that sink into it.
+"""Terramechanics: blades and buckets that cut soil, carry it and let it fall, and rigid wheels and tracks that sink into it.
 
-The kernels are those of `nivel.elements.contacts.on_soil`.
+The kernels are those of `nivel.elements.contacts.on_soil` and `nivel.elements.contacts.tracks`, where tracks are on hard ground too.
 """
 
 from __future__ import annotations
@@ -11,18 +11,24 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from nivel.elements.contacts.on_soil import ForceRow, apply
-from nivel.elements.contacts.soil import ON_SOIL, OnSoil, add_soil
-from nivel.elements.facts import Output, StateFact, of_force
+from nivel.elements.contacts import tracks
+from nivel.elements.contacts.height_field import HeightField
+from nivel.elements.contacts.heights import numbers_of
+from nivel.elements.contacts.on_soil import apply
+from nivel.elements.contacts.soil import ON_SOIL, ForceRow, OnSoil, Soil, add_soil
+from nivel.elements.facts import Output, StateFact, add_outputs, of_force
+from nivel.elements.forces.tyre import Grip, PositiveDamping, PositiveStiffness
 from nivel.elements.kind import Kind
 from nivel.errors import Fault, ModelError
 from nivel.kernels.elements.soil import address_of
+from nivel.kernels.record import function
 from nivel.known import SystemBuilder
 from nivel.machine.core.coefficient import PositiveAngle, Volume
+from nivel.machine.core.element import ForceElement
 from nivel.machine.core.marker import MarkerPlace, TwoMarkers
-from nivel.machine.core.record import Problem
-from nivel.machine.given import Field, Maybe
-from nivel.machine.units.quantity import PositiveLength
+from nivel.machine.core.record import GROUND, Problem, superfluous
+from nivel.machine.given import Field, Maybe, OneRecord
+from nivel.machine.units.quantity import PositiveLength, Whole
 
 
 class Blade(OnSoil):
@@ -71,6 +77,67 @@ class SoilWheel(OnSoil):
     width: PositiveLength
 
 
+class Track(ForceElement):
+    """A belt with shoes about wheels of a frame, which a sprocket drives: patches between two points, on hard ground or on soil."""
+
+    turns: ClassVar[bool] = True
+    outputs: ClassVar[tuple[str, ...]] = (
+        *of_force("load across the belt"),
+        Output("pull", "N", "force on the frame forwards, what resists the sinking taken off"),
+        Output("lateral", "N", "force on the frame to the left"),
+        Output(
+            "moment", "N m", "moment on the frame about the normal of the belt, of its lateral forces about the middle"
+        ),
+        Output("driving_moment", "N m", "moment on the sprocket about its axle, as if that pointed to the left"),
+        Output("sinkage", "m", "greatest, below the soil as it was laid; how deep it presses into hard ground"),
+        Output("slip", "1", "(belt - v) / max(|v|, |belt|)"),
+        Output("slip_loss", "W", "power lost by sliding"),
+        Output("resistance", "N", "of soil that is pressed down, against forward motion"),
+        Output("place_x", "m", "place of the middle along the x axis of the plane's marker"),
+        Output("place_y", "m", "place of the middle along its y axis"),
+        *ON_SOIL,
+    )
+
+    type: Literal["track"] = "track"
+    contact: TwoMarkers = Field(
+        description="markers of the frame: front and rear end of the belt on the ground, the z axis of the first one points out of it"
+    )
+    sprocket: MarkerPlace = Field(description="marker on what drives the belt: its z axis is the axle, in either sense")
+    radius: PositiveLength = Field(description="of the sprocket, to the pins of the belt")
+    width: PositiveLength = Field(description="of the belt")
+    patches: Whole = Field(default=10, description="along the belt, 2 to 100")
+    plane: MarkerPlace = Field(description="marker: its point lies in the plane, its z axis points out of it")
+    heights: Maybe[OneRecord[HeightField]] = Field(
+        default=None, description="of ground that is not flat, along the z axis of the `plane` over its x and y axes"
+    )
+    soil: Maybe[OneRecord[Soil]] = Field(default=None, description="numbers of the soil", absent="hard ground")
+    grip: Grip = Field(default=0.8, description="of hard ground: shear by load; a function, of the place `x`, `y` too")
+    stiffness: Maybe[PositiveStiffness] = Field(
+        default=None,
+        description="of the belt on hard ground",
+        absent="an equal share of all weight presses it in by 1 cm",
+    )
+    damping: Maybe[PositiveDamping] = Field(default=None, description="on hard ground", absent="10 ms · stiffness")
+    shear_length: PositiveLength = Field(
+        default=0.01, description="on hard ground: sliding after which 63 % of the grip acts"
+    )
+
+    def problems(self) -> Iterator[Problem]:
+        if not 2 <= self.patches <= MOST_PATCHES:
+            yield Problem(("patches",), f"2 to {MOST_PATCHES} patches were expected, got {self.patches}")
+        if self.soil is None:
+            return
+        if self.heights is None:
+            yield Problem(("heights",), "`heights` of the soil are missing")
+        for name in ("stiffness", "damping"):
+            if getattr(self, name) is not None:
+                yield superfluous(name, "belongs to hard ground, and `soil` is given")
+
+
+MOST_PATCHES, STANDARD_GRAVITY = 100, 9.81
+PRESSED_IN, DAMPING_TIME = 0.01, 0.01  # [m] under the weight, and d/c [s], of a track whose stiffness is not given
+
+
 def add_blade(builder: SystemBuilder, force: Blade) -> None:
     """A blade, with two shares of its resistances as states."""
     left, right, load = map(builder.end, (*force.edge, force.load_at or force.edge[0]))
@@ -97,4 +164,69 @@ def add_wheel(builder: SystemBuilder, force: SoilWheel) -> None:
     builder.add(apply, ForceRow.of(force, wheel=builder.end(force.wheel), **add_soil(builder, force)))
 
 
-KINDS = (Kind(Blade, add_blade, (apply, address_of)), Kind(SoilWheel, add_wheel, (apply, address_of)))
+def add_track(builder: SystemBuilder, force: Track) -> None:
+    """A track, with two shares of each patch, and on soil one of what resists at either end."""
+    front, rear, sprocket = map(builder.end, (*force.contact, force.sprocket))
+    frame, turning = builder.markers.body[front], builder.markers.body[sprocket]
+    (body, a, axes), (other, b, _) = map(builder.as_placed, force.contact)
+    if body != other or body == GROUND:
+        raise ModelError(Fault.at(f"forces.{force.name}.contact", "both markers of a belt stand on one body"))
+    if np.linalg.norm(np.cross(axes[:, 2], a - b)) < LEAST_SINE * np.linalg.norm(a - b) or np.array_equal(a, b):
+        message = (
+            "the z axis of the first marker points away from the ground, across the line from the second one to it"
+        )
+        raise ModelError(Fault.at(f"forces.{force.name}.contact", message))
+    if turning == frame:
+        raise ModelError(
+            Fault.at(f"forces.{force.name}.sprocket", "the sprocket stands on the frame; it needs a body that turns")
+        )
+    weight = STANDARD_GRAVITY * sum(each.mass or 0.0 for each in builder.machine.bodies)
+    tracks_of_machine = sum(isinstance(each, Track) for each in builder.machine.forces)
+    stiffness = force.stiffness or weight / tracks_of_machine / PRESSED_IN
+    columns = (
+        add_soil(builder, force) if force.soil is not None else {"output": add_outputs(builder, force, without=ON_SOIL)}
+    )
+
+    def share(name: str, text: str, *, follows: bool) -> int:
+        fact = StateFact(
+            f"{force.name}.{name}", "1", f"share of the {text} of {force.name}", 0.0, 1e-2, follows=follows
+        )
+        return builder.own_state(fact)
+
+    if force.soil is not None:
+        columns |= {name: share(key, f"resistance {text}", follows=False) for name, key, text in ENDS}
+    heights = force.heights if force.soil is None else None
+    x, y = ((function.OUTPUT, columns["output"] + tracks.PLACE + k, 0) for k in range(2))
+    row = ForceRow.of(
+        force,
+        front=front,
+        rear=rear,
+        sprocket=sprocket,
+        plane=builder.end(force.plane),
+        grip=builder.function(force.grip, {"x": x, "y": y}),
+        uneven=int(heights is not None),
+        shares=[
+            share(f"{way}_{k + 1}", f"strength {way} patch {k + 1}", follows=True)
+            for k in range(force.patches)
+            for way in ("along", "across")
+        ],
+        stiffness=stiffness,
+        damping=DAMPING_TIME * stiffness if force.damping is None else force.damping,
+        work=[0.0] * tracks.KEPT * force.patches + (numbers_of(heights.heights, heights.size) if heights else []),
+        **{name: value for name, value in columns.items() if name != "plane"},
+    )
+    builder.add(tracks.apply if force.soil is None else apply, row)
+
+
+LEAST_SINE = 0.1  # of the angle between the belt and the z axis of its first marker
+ENDS = (("push", "front", "ahead of the front end"), ("bearing", "rear", "behind the rear end"))
+KINDS = (
+    Kind(Blade, add_blade, (apply, address_of)),
+    Kind(SoilWheel, add_wheel, (apply, address_of)),
+    Kind(
+        Track,
+        add_track,
+        (tracks.apply, apply, address_of),
+        lambda machine, force: (apply, address_of) if force.soil else (tracks.apply,),
+    ),
+)

@@ -9,7 +9,7 @@ from nivel.analysis.curves.corners import corners_of
 from nivel.analysis.plan.choice import screws_as_couplings
 from nivel.errors import Fault
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.known import Contact, Contacts, Delay, Friction, OnSoil, Stop, TransmissionLoss
+from nivel.known import Contact, Contacts, Delay, Friction, Stop, TransmissionLoss
 from nivel.lazy import dataclass, nivel
 from nivel.machine.core.element import ForceElement
 from nivel.machine.laws.functions import functions_in
@@ -56,7 +56,7 @@ class Refusal:
 
 # of what neither knows how soil was changed before, nor changes it
 SOIL = "what soil bears depends on how it was pressed and cut before, which runs know: `nivel run`, `nivel live` or `machine.start()`"
-ON_SOIL = Refusal("forces", "", lambda force: isinstance(force, OnSoil), SOIL)
+ON_SOIL = Refusal("forces", "", lambda force: getattr(force, "soil", None) is not None, SOIL)
 
 
 def faults_of(machine: MachineRecord, refusals: Iterable[Refusal]) -> Iterator[Fault]:

@@ -147,9 +147,10 @@ def _of_force(force: Any, index: Index, place: Place) -> Faults:
         for at, plane in enumerate(as_list(entry(force, "planes"))):
             yield from _of_end(plane, index, (*place, "planes", at))
         return
-    for at, end in enumerate(as_list(entry(force, "edge"))):
-        yield from _of_end(end, index, (*place, "edge", at))
-    for key in ("load_at", "wheel", "plane"):
+    for key in ("edge", "contact"):
+        for at, end in enumerate(as_list(entry(force, key))):
+            yield from _of_end(end, index, (*place, key, at))
+    for key in ("load_at", "wheel", "sprocket", "plane"):
         if (end := entry(force, key)) is not None:
             yield from _of_end(end, index, (*place, key))
     if (wheel := entry(force, "wheel")) is not None:

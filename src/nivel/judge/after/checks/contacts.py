@@ -11,7 +11,7 @@ import numpy as np
 from nivel.judge.after.report import FRAMES, STEPS, Check
 from nivel.judge.after.subject import Equilibria, Motion, Run
 from nivel.judge.after.touching_pairs import Passed
-from nivel.known import Contact, Contacts, OnSoil
+from nivel.known import Contact, Contacts
 from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
 from nivel.results.scales import Readable, machine_size
@@ -213,7 +213,7 @@ class Moved:
 
 def look_at_soil(run: Run) -> Moved | None:
     """None without soil."""
-    names = [force.name for force in run.machine.forces if isinstance(force, OnSoil)]
+    names = [force.name for force in run.machine.forces if getattr(force, "soil", None) is not None]
     if not names:
         return None
     moved, missing, spilt = (

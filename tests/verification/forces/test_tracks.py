@@ -242,7 +242,9 @@ def test_two_steps_agree_and_energy_is_balanced(ground):
     lights = {item.name: item for item in coarse.trust.items}
     assert lights["energy"].verdict == "green"
     assert coarse.trust.verdict in ("green", "amber")
-    assert apart <= max(lights["accuracy"].fraction * 3.0, 1e-5)
+    fraction = lights["accuracy"].fraction
+    assert fraction is not None
+    assert apart <= max(3.0 * fraction, 1e-5)
     # what motors give is lost by sliding, but for what moves: on even ground the belt gives back what pressed it in
     assert (coarse.array("force.left.slip_loss") >= -1.0).all() or ground is not None
 

@@ -133,7 +133,7 @@ class SoilUnit:
     """The cells of one soil of a machine. name : of the soil. cell [m] : their sides. above : forces on it, as what they carry stands."""
 
     failure, arrays, law, name = "", (), address_of, ""
-    above: Sequence[OnSoil] = ()
+    above: Sequence[Any] = ()
 
     def __init__(self, soil: Soil, heights: HeightField, forces: int, gravity: Array, origin: float) -> None:
         """gravity (3,) [m/s²] : along the axes of the plane. origin [m²/s²] : gravity times the place of the first node."""

@@ -15,8 +15,6 @@ depth, so that energy is kept. Soil bears k z^n, normal to the belt, as a yield 
 costs ∫ p dz over the width for each metre (Bekker 1969), with the share that a blade's resistances have.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.contacts.heights import surface

@@ -85,9 +85,7 @@ class Track(ForceElement):
         *of_force("load across the belt"),
         Output("pull", "N", "force on the frame forwards, what resists the sinking taken off"),
         Output("lateral", "N", "force on the frame to the left"),
-        Output(
-            "moment", "N m", "moment on the frame about the normal of the belt, of its lateral forces about the middle"
-        ),
+        Output("moment", "N m", "moment on the frame about the normal of the belt, of its lateral forces"),
         Output("driving_moment", "N m", "moment on the sprocket about its axle, as if that pointed to the left"),
         Output("sinkage", "m", "greatest, below the soil as it was laid; how deep it presses into hard ground"),
         Output("slip", "1", "(belt - v) / max(|v|, |belt|)"),
@@ -100,27 +98,23 @@ class Track(ForceElement):
 
     type: Literal["track"] = "track"
     contact: TwoMarkers = Field(
-        description="markers of the frame: front and rear end of the belt on the ground, the z axis of the first one points out of it"
+        "markers of the frame: front and rear end of the belt on the ground, the z axis of the first one points out of it"
     )
-    sprocket: MarkerPlace = Field(description="marker on what drives the belt: its z axis is the axle, in either sense")
-    radius: PositiveLength = Field(description="of the sprocket, to the pins of the belt")
-    width: PositiveLength = Field(description="of the belt")
-    patches: Whole = Field(default=10, description="along the belt, 2 to 100")
-    plane: MarkerPlace = Field(description="marker: its point lies in the plane, its z axis points out of it")
+    sprocket: MarkerPlace = Field("marker on what drives the belt: its z axis is the axle, in either sense")
+    radius: PositiveLength = Field("of the sprocket, to the pins of the belt")
+    width: PositiveLength = Field("of the belt")
+    patches: Whole = Field("along the belt, 2 to 100", default=10)
+    plane: MarkerPlace = Field("marker: its point lies in the plane, its z axis points out of it")
     heights: Maybe[OneRecord[HeightField]] = Field(
-        default=None, description="of ground that is not flat, along the z axis of the `plane` over its x and y axes"
+        "of ground that is not flat, along the z axis of the `plane` over its x and y axes", default=None
     )
-    soil: Maybe[OneRecord[Soil]] = Field(default=None, description="numbers of the soil", absent="hard ground")
-    grip: Grip = Field(default=0.8, description="of hard ground: shear by load; a function, of the place `x`, `y` too")
+    soil: Maybe[OneRecord[Soil]] = Field("numbers of the soil", default=None, absent="hard ground")
+    grip: Grip = Field("of hard ground: shear by load; a function, of the place `x`, `y` too", default=0.8)
     stiffness: Maybe[PositiveStiffness] = Field(
-        default=None,
-        description="of the belt on hard ground",
-        absent="an equal share of all weight presses it in by 1 cm",
+        "of the belt on hard ground", default=None, absent="an equal share of all weight presses it in by 1 cm"
     )
-    damping: Maybe[PositiveDamping] = Field(default=None, description="on hard ground", absent="10 ms · stiffness")
-    shear_length: PositiveLength = Field(
-        default=0.01, description="on hard ground: sliding after which 63 % of the grip acts"
-    )
+    damping: Maybe[PositiveDamping] = Field("on hard ground", default=None, absent="10 ms · stiffness")
+    shear_length: PositiveLength = Field("on hard ground: sliding after which 63 % of the grip acts", default=0.01)
 
     def problems(self) -> Iterator[Problem]:
         if not 2 <= self.patches <= MOST_PATCHES:

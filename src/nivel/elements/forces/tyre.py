@@ -32,7 +32,15 @@ import numpy as np
 from pydantic import BeforeValidator
 
 from nivel.elements.contacts.height_field import HeightField
-from nivel.elements.contacts.heights import numbers_of, surface
+from nivel.elements.contacts.heights import (
+    BEND,
+    HIGHEST,
+    height,
+    look_at_heights,
+    mesh_of,
+    numbers_of,
+    surface,
+)
 from nivel.elements.facts import Output, StateFact, add_outputs, of_force
 from nivel.elements.forces import magic_formula
 from nivel.elements.forces.magic_formula import (
@@ -81,8 +89,10 @@ ROLLED, ROLL_TIME = 0.01, 0.05  # [m] of rolling that stretch the rolling resist
 LEAST_GRIP = 1e-3
 MOST_LOAD, LEAST_LOAD = 3.0, 1e-6  # of the nominal load: curves end there, and a tyre with less has left the ground
 SKEW = 0.2  # sine of the angle between axle and joint beyond which one of them is taken for a slip
-TOUCHES = 3  # times that the place of the patch on heights is sought
 NEAR = 0.1  # of the radius, from the middle of the patch to where heights are taken before and behind it
+# The place of the patch on heights: most places to each side that are looked at, share of the radius by which two may differ in distance
+# so that both are; steps to the nearest, of which the first are by Newton's method, and the share of the radius at which they end
+MOST_PLACES, TIED, TOUCHES, STRAIGHT, SETTLED = 200, 0.02, 40, 12, 1e-6
 FLAT = 0.1  # cosine of camber of a wheel that lies rather than rolls
 # A guess by the nominal load P: the passenger-car tyre of Rill 2012, 3.5, at P and 2 P; forces by P, its carcass by the vertical stiffness
 ALONG = {
@@ -496,38 +506,153 @@ def rolling(n, most, roll, v_t, z):
 
 
 @leaf
+def mean_ground(heights, x, y, e0, e1, radius, width):
+    """(h, slopes u along (e1, -e0) and v along (e0, e1), second derivatives uu, uv, vv) of the ground as a patch at (x, y) feels it.
+
+    Its axle is along (e0, e1). Means of four places: NEAR of the radius before and behind, and half of the width on either side.
+    """
+    o = 0.0 * x
+    h, u, v, uu, uv, vv = o, o, o, o, o, o
+    for k in range(4):
+        before = NEAR * radius * (1.0 - k) if k in (0, 2) else 0.0
+        beside = 0.5 * width * (2.0 - k) if k in (1, 3) else 0.0
+        z, zx, zy, xx, xy, yy = surface(heights, x + before * e1 + beside * e0, y - before * e0 + beside * e1)
+        h, u, v = h + 0.25 * z, u + 0.25 * (zx * e1 - zy * e0), v + 0.25 * (zx * e0 + zy * e1)
+        uu += 0.25 * (xx * e1 * e1 - 2.0 * xy * e1 * e0 + yy * e0 * e0)
+        uv += 0.25 * ((xx - yy) * e0 * e1 + xy * (e1 * e1 - e0 * e0))
+        vv += 0.25 * (xx * e0 * e0 + 2.0 * xy * e0 * e1 + yy * e1 * e1)
+    return h, u, v, uu, uv, vv
+
+
+@leaf
+def way_along(ground, m, upright, lean):
+    """(m', half of (s² + m²)'', v') where the mean ground is m below the centre of a disc, by the offset s along it; 0 counts for m < 0."""
+    _, u, v, uu, uv, vv = ground
+    over = upright + lean * v
+    rise = -u / over
+    bends, leans = uu + rise * lean * uv, uv + rise * lean * vv
+    return rise, 1.0 + rise * rise - maximum(m, 0.0 * m) * (bends + rise * lean * leans) / over, leans
+
+
+@leaf
+def mean_height(heights, x, y, e0, e1, radius, width):
+    """h of `mean_ground` alone, of real numbers."""
+    p, q, u, v = NEAR * radius * e1, NEAR * radius * e0, 0.5 * width * e0, 0.5 * width * e1
+    h = height(heights, x + p, y - q) + height(heights, x - p, y + q)
+    return 0.25 * (h + height(heights, x + u, y + v) + height(heights, x - u, y - v))
+
+
+@leaf
+def offsets_to_try(heights, x, y, top, upright, e0, e1, radius, width):
+    """Two offsets along (e1, -e0) near which the mean ground may be nearest to the centre of a disc, `top` above zero, and how near [m].
+
+    They are looked for at every half of a mesh, as far as the highest ground beside may be nearer than that below. Where none bends as
+    much as the disc, there is one. Of real numbers.
+    """
+    mesh = mesh_of(heights)
+    if real(heights[BEND]) * radius < mesh * mesh:
+        return 0.0, 0.0, radius
+    below = max((top - mean_height(heights, x, y, e0, e1, radius, width)) / upright, 0.0)
+    highest = max((top - real(heights[HIGHEST])) / upright, 0.0)
+    reach = min(np.sqrt(max(below * below - highest * highest, 0.0)), radius)
+    around = reach + NEAR * radius, 0.5 * width
+    p, q = around[0] * np.abs(e1) + around[1] * np.abs(e0), around[0] * np.abs(e0) + around[1] * np.abs(e1)
+    highest, bend = look_at_heights(heights, x - p, x + p, y - q, y + q)
+    if bend * radius < mesh * mesh:
+        return 0.0, 0.0, around[0]
+    highest = max((top - highest) / upright, 0.0)
+    reach = min(np.sqrt(max(below * below - highest * highest, 0.0)), reach)
+    count = np.int64(min(np.ceil(reach / min(0.5 * mesh, NEAR * radius)), MOST_PLACES)) + 1
+    step = reach / count
+    first, second, least, next_least = 0.0, 0.0, np.inf, np.inf
+    before, middle = np.inf, np.inf
+    for k in range(-count, count + 2):
+        s, squared = k * step, np.inf
+        if k <= count:
+            h = mean_height(heights, x + s * e1, y - s * e0, e0, e1, radius, width)
+            squared = s * s + max((top - h) / upright, 0.0) ** 2
+        if middle < before and middle <= squared:
+            if middle < least:
+                first, second, least, next_least = s - step, first, middle, least
+            elif middle < next_least:
+                second, next_least = s - step, middle
+        before, middle = middle, squared
+    return first, second if next_least < (np.sqrt(least) + TIED * radius) ** 2 else first, step
+
+
+@leaf
+def nearest_place(heights, c, e0, e1, upright, lean, s, reach, radius, width):
+    """(distance, s, m) where the mean ground is nearest to the centre c of a disc within `reach` of the offset s, of real numbers.
+
+    The place is c + s (e1, -e0, 0) - m (upward in the disc); where ground beside c is higher, m counts as zero. By Newton's method, and
+    halvings where that leaves the bounds.
+    """
+    low, high, m = s - reach, s + reach, 0.0
+    for k in range(TOUCHES):
+        x, y = c[0] + s * e1 + m * lean * e0, c[1] - s * e0 + m * lean * e1
+        ground = mean_ground(heights, x, y, e0, e1, radius, width)
+        m += (c[2] - m * upright - ground[0]) / (upright + lean * ground[2])
+        rise, curve, _ = way_along(ground, m, upright, lean)
+        slope = s + max(m, 0.0) * rise
+        if slope > 0.0:
+            high = s
+        else:
+            low = s
+        to = s - slope / curve if curve > 0.0 else low - 1.0
+        if not low <= to <= high or k >= STRAIGHT:
+            to = 0.5 * (low + high)
+        m += rise * (to - s)
+        settled = np.abs(to - s) < SETTLED * radius
+        s = to
+        if settled:
+            break
+    return np.sqrt(s * s + max(m, 0.0) ** 2), s, m
+
+
+@leaf
 def plane_under(heights, A, r, centre, y, radius, width):
     """(normal, point) of the plane in which a tyre stands on ground with heights, whose marker has the axes A and the point r.
 
-    Heights and slopes are means of four places about the patch: NEAR of the radius before and behind, and half of the width on either side.
-    The plane is the tangent of this mean ground where the disc comes to it, so that it keeps energy as it turns about the patch: by
-    Newton's method over crests, and in valleys, where a disc that fits hardly touches at two places, by repeated steps.
+    The plane is that through the place of the mean ground which is nearest to the centre of the disc, across the line between both. The
+    distance grows along this line as the centre moves, wherever the place is, so that energy is kept: over edges and in ditches too.
     """
-    c0, c1, c2 = seen(A, minus(centre, r))
-    y0, y1, y2 = seen(A, y)
-    level = root(y0 * y0 + y1 * y1)
-    e0, e1 = (y0 / level, y1 / level) if real(level) > 0.0 else (y0, y1)
-    px, py, touches = c0, c1, 0
-    while True:
-        h, gx, gy, bend = 0.0 * px, 0.0 * px, 0.0 * px, 0.0 * px
-        for k in range(4):
-            before = NEAR * radius * (1.0 - k) if k in (0, 2) else 0.0
-            aside = 0.5 * width * (2.0 - k) if k in (1, 3) else 0.0
-            own = surface(heights, px + before * e1 + aside * e0, py - before * e0 + aside * e1)
-            h, gx, gy = h + 0.25 * own[0], gx + 0.25 * own[1], gy + 0.25 * own[2]
-            bend += 0.25 * (own[3] * e1 * e1 - 2.0 * own[4] * e1 * e0 + own[5] * e0 * e0)
-        size = np.sqrt(1.0 + gx * gx + gy * gy)
-        if touches == TOUCHES:
-            break
-        # of the normal (-g, 1)/size: what it has along the axle, and across that
-        n0, n1, n2 = -gx / size, -gy / size, 1.0 / size
-        tilt = n0 * y0 + n1 * y1 + n2 * y2
-        arm = (n0 * (c0 - px) + n1 * (c1 - py) + n2 * (c2 - h)) / maximum(1.0 - tilt * tilt, FLAT * FLAT + 0.0 * tilt)
-        d0, d1 = c0 - arm * (n0 - tilt * y0) - px, c1 - arm * (n1 - tilt * y1) - py
-        crest = maximum(1.0 - arm * bend / (size * size * size), 1.0 + 0.0 * arm)
-        less = (d0 * e1 - d1 * e0) * (1.0 / crest - 1.0)
-        px, py, touches = px + d0 + less * e1, py + d1 - less * e0, touches + 1
-    return turned(A, (-gx / size, -gy / size, 1.0 / size)), plus(r, turned(A, (px, py, h)))
+    c, o = seen(A, minus(centre, r)), seen(A, y)
+    level = root(o[0] * o[0] + o[1] * o[1])
+    e0, e1 = (o[0] / level, o[1] / level) if real(level) > 0.0 else (o[0], o[1])
+    upright, lean = maximum(level, FLAT + 0.0 * level), o[2]
+    known = real(c[0]), real(c[1]), real(c[2])
+    f0, f1, up, by = real(e0), real(e1), real(upright), real(lean)
+    size, broad = real(radius), real(width)
+    m = (known[2] - height(heights, known[0], known[1])) / up
+    first, second, reach = offsets_to_try(
+        heights, known[0] + m * by * f0, known[1] + m * by * f1, known[2], up, f0, f1, size, broad
+    )
+    least, s, m = nearest_place(heights, known, f0, f1, up, by, first, reach, size, broad)
+    if second != first:
+        other, beside, below = nearest_place(heights, known, f0, f1, up, by, second, reach, size, broad)
+        if other < least:
+            s, m = beside, below
+    # one step more carries the slopes
+    q, d = s + 0.0 * c[0], m + 0.0 * c[0]
+    x, y = c[0] + q * e1 + d * lean * e0, c[1] - q * e0 + d * lean * e1
+    h, u, v, uu, uv, vv = mean_ground(heights, x, y, e0, e1, radius, width)
+    change = (c[2] - d * upright - h) / (upright + lean * v)
+    d, u, v = d + change, u + change * lean * uv, v + change * lean * vv
+    rise, curve, leans = way_along((h, u, v, uu, uv, vv), d, upright, lean)
+    slope = q + maximum(d, 0.0 * d) * rise
+    if np.abs(real(slope)) < NEAR * NEAR * size * real(curve):
+        move = -slope / curve
+        q, d, v = q + move, d + rise * move, v + leans * move
+    drop = maximum(d, 0.0 * d)
+    distance = root(q * q + drop * drop)
+    if real(distance) > 0.0:
+        before, upward = -q / distance, drop / distance
+    else:
+        distance, before, upward = d, 0.0 * d, 1.0 + 0.0 * d
+    w = before * e1 - upward * lean * e0, -before * e0 - upward * lean * e1, upward * level
+    tau = upward * (lean - level * v) / (upright + lean * v)
+    n = times(1.0 / np.sqrt(1.0 + tau * tau), plus(w, times(tau, o)))
+    return turned(A, n), plus(r, turned(A, minus(c, times(distance, w))))
 
 
 @element

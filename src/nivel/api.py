@@ -31,7 +31,7 @@ from nivel.settings import (
     StepSettingsDict,
     SweepSettingsDict,
 )
-from nivel.words.arguments import checked_arguments
+from nivel.words.arguments import checked_arguments, checked_methods
 from nivel.words.wording import shown
 
 if TYPE_CHECKING:
@@ -60,6 +60,7 @@ else:  # other words are refused by those who read settings, with the nearest on
     StaticCoordinates = str
 
 
+@checked_methods
 class Machine(Model):
     """A machine: its elements by name, copies of it with other values, and what can be asked of it.
 
@@ -105,7 +106,6 @@ class Machine(Model):
         self.record = MachineRecord(**given)
         self.origin = Origin()
 
-    @checked_arguments
     def check(self, *, listener: Listener | None = None) -> Check:
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
         plan = self._plan(self.origin.settings_outside)
@@ -117,7 +117,6 @@ class Machine(Model):
                 nivel.judge.before.check.check(plan), name_notes=self.name_notes, remarks=tuple(map(str, remarks))
             )
 
-    @checked_arguments
     def mass_properties(
         self, about: str = "ground", bodies: Sequence[str] | str = (), *, listener: Listener | None = None
     ) -> MassProperties:
@@ -125,18 +124,15 @@ class Machine(Model):
         with self._assembled(listener):
             return nivel.analysis.assembly.assemble.mass_properties(self.record, about, tuple(_names(bodies)))
 
-    @checked_arguments
     def posed(self, *, listener: Listener | None = None) -> Posing:
         """The assembled machine, to be moved by hand. Raises ModelError where it cannot be assembled."""
         with self._assembled(listener):
             return nivel.analysis.interactive.posing.Posing(self.record)
 
-    @checked_arguments
     def view(self, *, port: int = 0, browser: bool = True) -> None:
         """Show the assembled machine in a browser, with a slider for each joint that can move; returns after Ctrl-C."""
         nivel.view.server.serve(self.viewer_source(), host="127.0.0.1", port=port, browser=browser, say=print)
 
-    @checked_arguments
     def viewer_source(self, *, listener: Listener | None = None) -> PosedMachine:
         """What the viewer shows of the machine before any run."""
         posed = self.posed(listener=listener)
@@ -144,7 +140,6 @@ class Machine(Model):
             self.name, posed, self.record.model_dump(mode="json", by_alias=True, exclude_none=True)
         )
 
-    @checked_arguments
     def simulate(
         self,
         *,
@@ -199,7 +194,6 @@ class Machine(Model):
             )
         return whole if out is None else open_result(whole.save(out, force=force))
 
-    @checked_arguments
     def export_mjcf(self, path: str | PathLike[str], *, force: bool = False) -> tuple[str, ...]:
         """Write the rigid part of the machine as a model of MuJoCo, with its meshes in a folder beside `path`.
 
@@ -208,7 +202,6 @@ class Machine(Model):
         """
         return self._write_model(nivel.exchange.mjcf_writer.mjcf, Path(fspath(path)), "MJCF file", force)
 
-    @checked_arguments
     def export_urdf(self, path: str | PathLike[str], *, force: bool = False) -> tuple[str, ...]:
         """Write the tree of the machine's rigid bodies as a URDF, with its meshes in a folder beside `path`.
 
@@ -235,7 +228,6 @@ class Machine(Model):
         nivel.files.target.write_file(path, what, text)
         return tuple(notes)
 
-    @checked_arguments
     def export_c(
         self,
         folder: str | PathLike[str],
@@ -255,7 +247,6 @@ class Machine(Model):
         with self._compiled(nivel.analysis.plan.compilation.run_entries(plan), listener):
             return nivel.c_library.writer.write_c_library(plan, Path(folder), _names(select), platform)
 
-    @checked_arguments
     def export_fmu(
         self,
         path: str | PathLike[str],
@@ -311,7 +302,6 @@ class Machine(Model):
         **settings: Unpack[StepSettingsDict],
     ) -> Simulations: ...
 
-    @checked_arguments
     def gradient(
         self,
         outputs: Sequence[str] | str,
@@ -344,7 +334,6 @@ class Machine(Model):
                 listener=listener,
             )
 
-    @checked_arguments
     def start(
         self,
         *,
@@ -381,7 +370,6 @@ class Machine(Model):
         with retold(chosen.origin.placed):
             return nivel.analysis.run.many.Simulations(plans, source=self.origin.source)
 
-    @checked_arguments
     def sweep(
         self,
         values: Mapping[str, Any],
@@ -408,7 +396,6 @@ class Machine(Model):
         own = {name: given.pop(name) for name in record.model_fields if name in given}
         return _sweep([self.with_settings(given)], values, record(**own), listener)
 
-    @checked_arguments
     def batch(
         self,
         values: Mapping[str, Sequence[Any] | Any],
@@ -437,7 +424,6 @@ class Machine(Model):
             chosen, rows, tuple(_names(save)), threads=threads, listener=listener or Listener()
         )
 
-    @checked_arguments
     def optimise(
         self,
         objective: str | Callable[..., float],
@@ -511,7 +497,6 @@ class Machine(Model):
 
         return exact
 
-    @checked_arguments
     def optimal_inputs(
         self,
         objective: str | Callable[..., float],
@@ -551,7 +536,6 @@ class Machine(Model):
         )
         return course.tables(found.values), found
 
-    @checked_arguments
     def identify(
         self,
         data: str | PathLike[str] | Mapping[str, Any],
@@ -618,7 +602,6 @@ class Machine(Model):
         """The machine with these settings, whose runs are compiled; other analyses compile themselves."""
         return self._ready(settings, listener)[0] if analysis == "run" else self.with_settings(_given(settings))
 
-    @checked_arguments
     def statics(
         self,
         *,
@@ -658,7 +641,6 @@ class Machine(Model):
                 compile_seconds=compile_seconds,
             )
 
-    @checked_arguments
     def kinematics(
         self,
         *,
@@ -695,7 +677,6 @@ class Machine(Model):
                 compile_seconds=compile_seconds,
             )
 
-    @checked_arguments
     def range_of_motion(
         self,
         coordinate: str,
@@ -731,7 +712,6 @@ class Machine(Model):
             lambda: self.configuration_curve(name),
         )
 
-    @checked_arguments
     def configuration_curve(self, coordinate: str, *, listener: Listener | None = None) -> ConfigurationCurve:
         """All positions of a machine with one free motion, by arc length, also beyond the turning points of a coordinate, which are given.
 
@@ -741,7 +721,6 @@ class Machine(Model):
         with self._assembled(listener):
             return nivel.analysis.kinematics.continuation.configuration_curve(self.record, name)
 
-    @checked_arguments
     def inverse(self, *, listener: Listener | None = None, **settings: Unpack[InverseSettingsDict]) -> Efforts:
         """Inverse dynamics: the efforts of actuators that make the machine follow a motion.
 
@@ -779,7 +758,6 @@ class Machine(Model):
         replaced = [each for each in record.drivers if motion is not None and each.name not in wanted.hold]
         return nivel.analysis.inverse.run.with_trust(found, record.drivers, followed, replaced)
 
-    @checked_arguments
     def mechanics(self, *, coordinates: str | None = None, listener: Listener | None = None) -> Mechanics:
         """The machine as robotics knows it, to be asked for many states: `names`, `start`, `mass_matrix(q)`, `bias(q, v)`,
         `inverse_dynamics(q, v, a)`, `forward_dynamics(q, v, tau)`, `jacobian(point, q)`, `jacobian_bias(point, q, v)`.
@@ -797,7 +775,6 @@ class Machine(Model):
                 plain, nivel.analysis.run.prepared_state.at_start(methods), left_out
             )
 
-    @checked_arguments
     def inverse_kinematics(
         self,
         point: str,
@@ -827,27 +804,22 @@ class Machine(Model):
     def _mechanics(self) -> Mechanics:
         return self.mechanics()
 
-    @checked_arguments
     def mass_matrix(self, q: Any = None) -> Any:
         """(f, f) mass matrix in the independent coordinates `mechanics().names`, at positions q; default: the start."""
         return self._mechanics.mass_matrix(q)
 
-    @checked_arguments
     def bias(self, q: Any = None, v: Any = None) -> Any:
         """(f,) efforts that no acceleration asks for at positions q and velocities v: weight, centrifugal and all other forces."""
         return self._mechanics.bias(q, v)
 
-    @checked_arguments
     def inverse_dynamics(self, q: Any, v: Any, a: Any) -> Any:
         """(f,) efforts that make the accelerations a at positions q and velocities v."""
         return self._mechanics.inverse_dynamics(q, v, a)
 
-    @checked_arguments
     def jacobian(self, point: str, q: Any = None) -> Any:
         """(6, f) velocity and angular velocity of a marker or body per velocity, global axes, at positions q."""
         return self._mechanics.jacobian(point, q)
 
-    @checked_arguments
     def linearise(self, *, listener: Listener | None = None, **settings: Unpack[LineariseSettingsDict]) -> LinearModel:
         """The equations of motion made linear about a state: eigenvalues, modes, and A, B, C, D between inputs and outputs.
 
@@ -884,7 +856,6 @@ class Machine(Model):
                 inputs, methods, asked, run=run, source=self.origin.source, listener=listener
             )
 
-    @checked_arguments
     def compare(
         self,
         *,
@@ -940,7 +911,6 @@ class Machine(Model):
         """With what it takes to assemble the machine."""
         return self._compiled(nivel.analysis.plan.compilation.assembly_entries(self.record), listener)
 
-    @checked_arguments
     def with_inputs(self, inputs: Mapping[str, float | str | PathLike[str] | nivel.Table]) -> Machine:
         """The same machine whose inputs follow numbers, tables of time, or files of columns `time`, `value` (CSV).
 

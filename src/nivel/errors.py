@@ -7,8 +7,6 @@
 Anything else that escapes is a defect of nivel.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, replace
@@ -48,7 +46,7 @@ class Fault:
             object.__setattr__(self, field, plain(getattr(self, field)))
 
     @classmethod
-    def at(cls, path: str, message: str) -> Fault:
+    def at(cls, path: str, message: str) -> "Fault":
         """A fault of an element whose place in a file is not known here: `Origin.placed` finds it."""
         return cls("", 0, 0, path, message)
 

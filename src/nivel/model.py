@@ -1,7 +1,5 @@
 """Elements of a machine: its elements by name, and copies with other values or elements."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import cached_property
 from html import escape
@@ -40,7 +38,7 @@ from nivel.machine.core.record import Record, entry
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import AssemblySettings, SimulationSettings, changed
 from nivel.machine.uses.references import SECTIONS
-from nivel.words.arguments import checked_arguments
+from nivel.words.arguments import checked_methods
 from nivel.words.wording import unknown_word
 
 Element = TypeVar("Element", bound=Record)
@@ -57,7 +55,7 @@ class Kept(property, Generic[Value]):
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name
 
-    def _of(self, part: Elements) -> Any:
+    def _of(self, part: "Elements") -> Any:
         return getattr(part.record, self._name)
 
     if TYPE_CHECKING:
@@ -72,7 +70,7 @@ class Section(Kept[Named[Element]]):
         super().__init__(doc)
         self._singular = singular
 
-    def _of(self, part: Elements) -> Named[Element]:
+    def _of(self, part: "Elements") -> Named[Element]:
         mine = [each for each in super()._of(part) if str(getattr(each, "name", "")).startswith(part._prefix)]
         return Named(self._singular, mine, part._prefix)
 
@@ -121,6 +119,7 @@ class Subsystem(Elements):
         return f"<Subsystem {self.prefix}*: {', '.join(counts)}>"
 
 
+@checked_methods
 class Model(Elements):
     """A machine as a model that can be read, changed and written. Nothing changes a machine; what changes it returns another."""
 
@@ -132,7 +131,6 @@ class Model(Elements):
     simulation: Kept[SimulationSettings] = Kept("How the machine is simulated unless a run has settings of its own.")
 
     @classmethod
-    @checked_arguments
     def from_record(cls, record: MachineRecord, origin: Origin | None = None) -> Self:
         """Wrap a record; `origin` says where its values were set."""
         machine = cls.__new__(cls)
@@ -189,7 +187,6 @@ class Model(Elements):
         found = {name: Subsystem(self.record, assembly) for name, assembly in self._file_names.assemblies.items()}
         return NamedValues("assembly", found)
 
-    @checked_arguments
     def __getitem__(self, path: str) -> Any:
         """The element of this name, ``machine["crank"]``, or what stands at a path as in a machine file,
         ``machine["bodies.crank.mass"]`` or ``machine["crank.mass"]``, in SI units. Raises ModelError with the nearest name.
@@ -208,7 +205,6 @@ class Model(Elements):
     def __contains__(self, name: object) -> bool:
         return isinstance(name, str) and bool(elements_named(self.record, name))
 
-    @checked_arguments
     def with_values(self, values: Mapping[str, Any]) -> Self:
         """The same machine with other values by path: ``{"bodies.crank.mass": "22 kg", "parameters.length": 0.3}``.
 
@@ -221,7 +217,6 @@ class Model(Elements):
         machine = type(self).from_record(record, origin)
         return machine.with_settings(given) if given else machine
 
-    @checked_arguments
     def with_settings(self, settings: Mapping[str, Any]) -> Self:
         """The same machine with some simulation settings replaced."""
         if not settings:
@@ -237,7 +232,6 @@ class Model(Elements):
         with retold(origin.placed):
             return type(self).from_record(self.record.replace(simulation=simulation), origin)
 
-    @checked_arguments
     def replace(self, *elements: Record, **words: Any) -> Self:
         """The same machine with other elements or words: ``machine.replace(rod.replace(mass=3), gravity=(0, 0, -1.62))``.
 
@@ -246,7 +240,6 @@ class Model(Elements):
         """
         return self._edited({**replaced(self.record, elements), **words})
 
-    @checked_arguments
     def with_elements(self, *elements: Record) -> Self:
         """The same machine with more elements. Raises ModelError where a name is taken, or something does not fit."""
         sections: dict[str, tuple[Any, ...]] = {}
@@ -256,7 +249,6 @@ class Model(Elements):
             sections[section] = (*before, element)
         return self._edited(sections)
 
-    @checked_arguments
     def without(self, *names: str) -> Self:
         """The same machine without the elements of these names. Raises ModelError where one is not there, or is needed by others."""
         sections: dict[str, tuple[Any, ...]] = {}
@@ -267,8 +259,7 @@ class Model(Elements):
             sections[section] = tuple(each for each in before if each.name != name)
         return self._edited(sections)
 
-    @checked_arguments
-    def with_part(self, name: str, part: Model, **placing: Any) -> Self:
+    def with_part(self, name: str, part: "Model", **placing: Any) -> Self:
         """The same machine with all elements of another one, `part`, placed and named as by an entry of `assemblies:`.
 
         placing : `position`, `orientation`, `mirror`, `prefix` (default the name and `_`), as in a machine file.
@@ -286,7 +277,6 @@ class Model(Elements):
             record = self.record.replace(**changes)
         return type(self).from_record(record, self.origin.edited())
 
-    @checked_arguments
     def save(self, path: str | PathLike[str]) -> None:
         """Write the machine as a YAML file; an existing file is replaced. Raises ModelError where it cannot be written."""
         write_file(path, "machine file", self.to_yaml())

@@ -18,12 +18,13 @@ from nivel.known import Identified, Journal, Optimum, Resolved, Variants
 from nivel.lazy import dataclass, nivel, replace, xarray
 from nivel.machine.study.parameter import Between
 from nivel.results.frames.tabulated import write_netcdf
-from nivel.words.arguments import checked_arguments
+from nivel.words.arguments import checked_arguments, checked_methods
 
 Found = TypeVar("Found", "Optimum", "Identified")
 TIMES = ("seconds", "loop_seconds", "processes")  # attributes that are of the computation, and not of the study
 
 
+@checked_methods
 @dataclass(frozen=True, repr=False)
 class Study:
     """A study file with its machine: `variants`, and what `sweep` computes of them. Made by `nivel.load_study`."""
@@ -52,7 +53,6 @@ class Study:
                 self.resolved.parameters, record.design, record.samples, record.seed
             )
 
-    @checked_arguments
     def sweep(
         self,
         *,
@@ -107,13 +107,11 @@ class Study:
                 journal.complete = True
         return found
 
-    @checked_arguments
     def report(self, found: Any, path: str | PathLike[str]) -> Path:
         """Write the report of what `sweep` found, a dataset or its file, as one HTML file that needs no network; an existing file is
         replaced."""
         return write_study_report(found, path)
 
-    @checked_arguments
     def optimise(
         self,
         *,
@@ -157,7 +155,6 @@ class Study:
 
         return self._searched(find, search, out, resume=resume, force=force)
 
-    @checked_arguments
     def identify(
         self,
         *,

@@ -5,8 +5,6 @@
 What is neither is a defect of nivel and keeps its traceback.
 """
 
-from __future__ import annotations
-
 import errno
 import os
 import sys
@@ -69,7 +67,7 @@ def say_faults(error: ModelError) -> None:
         _say(f"{len(error.faults)} faults")
 
 
-def fault_line(fault: Fault) -> Text:
+def fault_line(fault: Fault) -> "Text":
     """A fault in colours: the place to click on, the element, the message."""
     parts = []
     if fault.line:
@@ -100,7 +98,7 @@ def say_failure(error: SolveError) -> None:
         _say(error.advice)
 
 
-def _say(text: Text | str) -> None:
+def _say(text: "Text | str") -> None:
     # soft_wrap: a line is a line also in a narrow terminal or a pipe, for people and programs that look for places
     try:
         rich.console.Console(stderr=True, highlight=False, soft_wrap=True, markup=False).print(text)

@@ -1,7 +1,5 @@
 """`nivel kinematics MACHINE`: positions, velocities, accelerations and reactions of a driven machine; a result file and a report."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -51,7 +49,7 @@ def command(order: Order, ranged: bool, through: bool, transmission: tuple[str, 
         _follow(order, machine)
     else:
 
-        def studied(result: Result) -> Studied:
+        def studied(result: Result) -> "Studied":
             return Studied(result, nivel.results.analyses.mechanism.add_studies(result, angles, points))
 
         order.run(f"{machine.name}-kinematics.nc", machine.kinematics, _say, studied)

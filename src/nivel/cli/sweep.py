@@ -1,7 +1,5 @@
 """`nivel sweep STUDY`: all variants of a study, on the processors of this machine or on a cluster; a data file, a report, a summary."""
 
-from __future__ import annotations
-
 import json
 import sys
 from collections import deque
@@ -76,7 +74,7 @@ def say_how_to_go_on(target: Path) -> None:
         click.echo(f"what was computed is in {target}.journal; go on with --resume", err=True)
 
 
-def summary(found: xarray.Dataset) -> dict[str, Any]:
+def summary(found: "xarray.Dataset") -> dict[str, Any]:
     """Outcomes, and numbers of each output, for programs."""
     table = nivel.results.study_statistics.Table.of(found)
     outputs = {}
@@ -100,7 +98,7 @@ def summary(found: xarray.Dataset) -> dict[str, Any]:
     return out | ({"yield": nivel.results.study_statistics.share_within(table).value} if table.limited else {})
 
 
-def _say(found: xarray.Dataset, target: Path, page: Path | None, interrupted: bool) -> None:
+def _say(found: "xarray.Dataset", target: Path, page: Path | None, interrupted: bool) -> None:
     out, table, facts = nivel.cli.progress.console(), nivel.results.study_statistics.Table.of(found), summary(found)
     loop, took = float(found.attrs["loop_seconds"]), float(found.attrs["seconds"])
     steps = f", {seconds(loop)} of it in loops of runs" if loop else ""

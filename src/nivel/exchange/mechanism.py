@@ -5,8 +5,6 @@ zero unless joints follow each other with an offset. SI, angles in radians, vect
 of a link.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import Final, Literal
 
@@ -32,12 +30,12 @@ class Frame:
     axes: Array = field(default_factory=lambda: np.eye(3))
     origin: Array = field(default_factory=lambda: np.zeros(3))
 
-    def __matmul__(self, inner: Frame) -> Frame:
+    def __matmul__(self, inner: "Frame") -> "Frame":
         """`inner`, given in this frame, in the frame around this one."""
         return Frame(self.axes @ inner.axes, self.axes @ inner.origin + self.origin)
 
     @property
-    def inverse(self) -> Frame:
+    def inverse(self) -> "Frame":
         """The frame around this one, in this one."""
         return Frame(self.axes.T, -self.axes.T @ self.origin)
 

@@ -1,7 +1,5 @@
 """XML documents for other programs, and the geometry of bodies in them: primitives in the frame of a body, and meshes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from xml.sax.saxutils import escape, quoteattr
 
@@ -28,7 +26,7 @@ class Lines:
         text = "\n     ".join(each.replace("--", "- -") for each in lines)
         self._lines.insert(1, f"<!-- {text}\n-->")
 
-    def add(self, inner: Lines) -> None:
+    def add(self, inner: "Lines") -> None:
         """The elements of another document, inside of the one that is open."""
         self._lines += [f"{self._indent}{line}" for line in inner._lines[1:]]
 

@@ -1,7 +1,5 @@
 """Outline of a machine file: `format`, sections of named elements, and words for the whole machine."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, Final
 
@@ -166,7 +164,7 @@ class Known:
     parameters: Mapping[str, str]
 
     @classmethod
-    def of(cls, tree: Tree, parameters: Parameters, record: MachineRecord) -> Known:
+    def of(cls, tree: Tree, parameters: Parameters, record: MachineRecord) -> "Known":
         """Those of `record`, which was read from `tree` with these parameters."""
         texts = _texts(tree)
         made = {(section, each.name): each for section in SECTIONS for each in getattr(record, section)}

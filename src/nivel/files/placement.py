@@ -13,8 +13,6 @@ Where P mirrors, F turns one axis around (or all three), since the mere image R 
     AXIAL     all three are axial images
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import Any, Final
@@ -57,7 +55,7 @@ class Placement:
     reflection: Array
 
     @classmethod
-    def of(cls, position: Triple, orientation: Orientation | None, mirror: str) -> Placement:
+    def of(cls, position: Triple, orientation: Orientation | None, mirror: str) -> "Placement":
         """As an assembly gives it; `mirror` is x, y, z or none."""
         rotation = rotation_matrix(orientation)
         nearest = np.round(rotation)
@@ -158,7 +156,7 @@ class Scene:
     extra: dict[str, Marker] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, elements: Mapping[str, Sequence[Record]], placing: Placement) -> Scene:
+    def of(cls, elements: Mapping[str, Sequence[Record]], placing: Placement) -> "Scene":
         """The part with these elements by section."""
         bodies = {each.name: each for each in elements["bodies"] if isinstance(each, Body)}
         markers = {str(each.name): each for each in elements["markers"] if isinstance(each, Marker)}

@@ -1,7 +1,5 @@
 """Machine files: from YAML to records, with every fault and its place."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Mapping
 from pathlib import Path as FilePath
@@ -101,11 +99,11 @@ class Origin:
     values: Mapping[str, Any] = field(default_factory=dict)
     allow_code: bool = False
 
-    def with_settings(self, settings: Mapping[str, Any]) -> Origin:
+    def with_settings(self, settings: Mapping[str, Any]) -> "Origin":
         """The same with these simulation settings given for a run."""
         return replace(self, given={**self.given, **settings})
 
-    def edited(self) -> Origin:
+    def edited(self) -> "Origin":
         """Of a machine whose elements were replaced: no file says any more what it is."""
         return replace(self, source="", outside=frozenset(), values={})
 

@@ -1,7 +1,5 @@
 """The files that a machine is read from: the main one, and those that it names."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from difflib import get_close_matches
 from pathlib import Path as FilePath
@@ -78,7 +76,7 @@ class Sources:
     read: list[str] = field(default_factory=list)
     again: bool = False
 
-    def inside(self, file: str) -> Sources:
+    def inside(self, file: str) -> "Sources":
         """The same while `file` is read."""
         return replace(self, open=(*self.open, resolved(file)))
 

@@ -4,8 +4,6 @@ The number rule is YAML 1.2's (core schema): `1e3` and `1e-3` are numbers; `12:3
 always texts. Aliases work; merge keys, tags and keys that stand twice are refused.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable, Hashable, Iterable, Mapping
@@ -105,7 +103,7 @@ class Tree:
             for path in [path for path in places if path[: len(origin)] == origin]:
                 places[(*target, *path[len(origin) :])] = places[path]
 
-    def graft(self, other: Tree, moves: Mapping[Path, Path]) -> None:
+    def graft(self, other: "Tree", moves: Mapping[Path, Path]) -> None:
         """Take over the places of parts of `other`. `moves`: paths there, all of one length, and what they are here."""
         length = len(next(iter(moves), ()))
         for mine, theirs in ((self.places, other.places), (self.keys, other.keys)):

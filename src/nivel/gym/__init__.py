@@ -7,8 +7,6 @@
 Gymnasium is loaded when an environment is made: `pip install 'nivel[gym]'`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any
@@ -37,7 +35,7 @@ def environment(
     scaled: bool = True,
     record: bool = False,
     settings: Mapping[str, Any] | None = None,
-) -> gymnasium.Env[Any, Any]:
+) -> "gymnasium.Env[Any, Any]":
     """A machine with inputs as an environment of Gymnasium.
 
     machine : or its file. reward : an expression of names of results, inputs and `time` in SI units, "1 - hinge.angle^2", or a function of
@@ -59,7 +57,7 @@ def environment(
 @checked_arguments
 def environments(
     count: int, machine: Machine | str | PathLike[str], *, reward: str | Callable[..., float], **given: Any
-) -> gymnasium.vector.VectorEnv[Any, Any, Any]:
+) -> "gymnasium.vector.VectorEnv[Any, Any, Any]":
     """So many environments side by side as a vector environment of Gymnasium; what is given is that of `environment`."""
     require("environments for reinforcement learning need", "gymnasium")
     if count < 1:

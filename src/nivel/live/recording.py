@@ -1,7 +1,5 @@
 """Recording of a live run, as it is kept in a file: its parts, and the motions from the start on that they make up."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
@@ -39,11 +37,11 @@ class Take:
         """How many."""
         return len(self.tape)
 
-    def up_to(self, ticks: int, time: float) -> Take:
+    def up_to(self, ticks: int, time: float) -> "Take":
         """The beginning of the take: so many ticks, and frames up to a time [s]."""
         return Take(self.tape[:ticks], self.frames[self.frames[:, 0] <= time * (1.0 + 1e-12)], self.whole)
 
-    def then(self, other: Take) -> Take:
+    def then(self, other: "Take") -> "Take":
         """This take, and how it went on."""
         tape, frames = np.concatenate([self.tape, other.tape]), np.concatenate([self.frames, other.frames])
         return Take(tape, frames, other.whole)

@@ -1,7 +1,5 @@
 """Handling of a vehicle: histories of a manoeuvre in the axes of the level vehicle, its numbers, and the page of all manoeuvres."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np
@@ -36,7 +34,7 @@ class Manoeuvre:
     y: Array
 
     @classmethod
-    def of(cls, name: str, run: Result, body: int, driver: str) -> Manoeuvre:
+    def of(cls, name: str, run: Result, body: int, driver: str) -> "Manoeuvre":
         """Of a run, the body of this number and the block that drives."""
         p, v, a = (run.array(each)[:, body] for each in ("position", "velocity", "acceleration"))
         e0, e1, e2, e3 = run.array("orientation")[:, body].T

@@ -1,7 +1,5 @@
 """Comparison of runs of one machine with many methods."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json
@@ -14,7 +12,7 @@ from nivel.files.target import write_text
 from nivel.lazy import asdict, dataclass, field, fields, provided, replace
 from nivel.results.comparison_table import as_html, as_text
 from nivel.results.trust import Trust, storable
-from nivel.words.arguments import checked_arguments
+from nivel.words.arguments import checked_methods
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -124,6 +122,7 @@ class Spread:
     left_out: int = 0
 
 
+@checked_methods
 @dataclass(frozen=True)
 class Comparison:
     """A grid of runs of one machine.
@@ -175,17 +174,14 @@ class Comparison:
             if name not in self.varying and (name != "rotations" or method.formulation == "lagrange")
         )
 
-    @checked_arguments
     def label(self, row: Row) -> str:
         """The words of a row that tell it from others, without the step."""
         return method_label(row.method, self.varying)
 
-    @checked_arguments
     def reference_of(self, row: Row) -> Reference | None:
         """What the motion of a row was held against."""
         return next((each for each in self.references if each.name == row.reference), None)
 
-    @checked_arguments
     def is_resolved(self, row: Row) -> bool:
         """Whether the motion error of a row is clearly above the error of its reference."""
         reference = self.reference_of(row)
@@ -198,7 +194,6 @@ class Comparison:
             out.setdefault(row.method, []).append(row)
         return {method: sorted(rows, key=lambda row: -row.fineness) for method, rows in out.items()}
 
-    @checked_arguments
     def to_csv(self, path: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
         """A table with a header (`step [s]`) and a line for every row; written to `path` where one is given. force : replace an existing
         file. Numbers are as short as they can be read back exactly, nothing where there is none."""
@@ -209,7 +204,6 @@ class Comparison:
         table.writerows([getattr(row, name) for name in names] for row in self.rows)
         return write_text(file.getvalue(), path, "table", force=force)
 
-    @checked_arguments
     def to_json(self, path: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
         """Everything as JSON, null for what is not a number; written to `path` where one is given. force : replace an existing file."""
         data = asdict(replace(self, trust=None)) | {"trust": json.loads(self.trust.to_json())}
@@ -217,8 +211,7 @@ class Comparison:
         return write_text(text, path, "comparison", force=force)
 
     @classmethod
-    @checked_arguments
-    def from_json(cls, text: str) -> Comparison:
+    def from_json(cls, text: str) -> "Comparison":
         """The comparison that `to_json` wrote. Raises ModelError where `text` is none."""
         try:
             data = json.loads(text)
@@ -235,7 +228,6 @@ class Comparison:
         except (ValueError, TypeError, KeyError) as error:
             raise ModelError(f"this is not the text of a comparison, as `to_json` writes it: {error}") from error
 
-    @checked_arguments
     def report(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Write a page with the table and a work–precision diagram, one HTML file that needs no network.
 
@@ -250,7 +242,7 @@ class Comparison:
         return as_html(self)
 
 
-def method_label(method: Method, varying: Iterable[str]) -> str:
+def method_label(method: Method, varying: "Iterable[str]") -> str:
     """The words of `method` on the axes `varying`; its integrator where there are none."""
     names = tuple(varying) or ("integrator",)
     words = [getattr(method, name) for name in names]

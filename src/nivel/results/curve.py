@@ -7,8 +7,6 @@ Where the result has second rates these are compared too: a vibration with whole
 A run looks at its numbers at times that are no frames (`nivel.analysis.run.probes`); what these are apart from their curves is doubt too.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping
 from typing import Any, Final, NamedTuple
@@ -60,7 +58,7 @@ class Curve:
         return self.value[:-1], self.value[1:], self.rate[:-1], self.rate[1:]
 
     @property
-    def negative(self) -> Curve:
+    def negative(self) -> "Curve":
         """The curve with the other sign."""
         return replace(self, value=-self.value, rate=-self.rate)
 
@@ -92,7 +90,7 @@ class Curve:
         share = np.divide(time - self.time[k], step, out=np.ones_like(step), where=step > 0.0)
         return k, np.clip(share, 0.0, 1.0)[:, None], step[:, None]
 
-    def within(self, start: float, end: float) -> Curve:
+    def within(self, start: float, end: float) -> "Curve":
         """The part from `start` to `end` [s], which lie on it."""
         if len(self.time) < 2:
             return self
@@ -108,7 +106,7 @@ class Curve:
         time = np.concatenate([[start], self.time[inside], [end]])
         return Curve(time, value, rate, self.doubt[intervals], self.hidden[intervals])
 
-    def doubted(self, more: Array) -> Curve:
+    def doubted(self, more: Array) -> "Curve":
         """The curve that may be off by `more` (m,) or (n - 1, m) too, wherever it goes."""
         return replace(self, doubt=np.maximum(self.doubt, more), hidden=np.maximum(self.hidden, more))
 

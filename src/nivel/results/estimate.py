@@ -1,7 +1,5 @@
 """Estimate of the error of every result variable from a second, finer run."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Mapping
@@ -49,7 +47,7 @@ class Estimate:
         return f'{{"time":{json.dumps(self.time.tolist())},"values":{{{values}}}}}'
 
     @classmethod
-    def from_json(cls, text: str) -> Estimate:
+    def from_json(cls, text: str) -> "Estimate":
         """Read what `to_json` wrote."""
         data = json.loads(text)
         return cls(np.array(data["time"]), {name: np.array(each, dtype=float) for name, each in data["values"].items()})

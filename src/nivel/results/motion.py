@@ -1,7 +1,5 @@
 """The motion of all bodies at the frames of a run, and how far two of them are apart."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Mapping
@@ -117,7 +115,7 @@ class Motion:
     bodies: tuple[str, ...]
 
     @classmethod
-    def of(cls, result: Readable) -> Motion:
+    def of(cls, result: Readable) -> "Motion":
         """The motion in `result`; it may have no bodies."""
         bodies = result.coordinates.get("body", ())
         if "position" not in result.variables:

@@ -21,7 +21,7 @@ from nivel.results.frames.summary import Iterations, Occurrence, from_json
 from nivel.results.frames.tabulated import Column, Rows, Tabulated
 from nivel.results.trust import Trust
 from nivel.system.layout import Variable
-from nivel.words.arguments import checked_arguments
+from nivel.words.arguments import checked_methods
 from nivel.words.wording import in_results
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from nivel.view.page import Inline
 
 
+@checked_methods
 class Result(Tabulated):
     """What a run computed, read from its file or memory when asked for.
 
@@ -42,7 +43,6 @@ class Result(Tabulated):
         self._contents = contents
 
     @classmethod
-    @checked_arguments
     def open(cls, path: str | os.PathLike[str]) -> Result:
         """Read a result file, also one that is still being written or whose writer was killed."""
         return cls(StoredContents(Path(path)))
@@ -114,7 +114,6 @@ class Result(Tabulated):
                 return Trust.from_json(str(self.attributes["trust"]))
         return provided("trust of remains")(self)
 
-    @checked_arguments
     def sections(self, beam: str) -> xarray.Dataset:
         """Strains, forces and moments along a beam at all times; see `nivel.results.beams`."""
         return nivel.results.beams.beam_sections(self, beam)
@@ -181,7 +180,6 @@ class Result(Tabulated):
         """Everything that can be asked for."""
         return tuple(self._selections)
 
-    @checked_arguments
     def selection(self, name: str) -> Selection:
         """Where `name` stands, as results or expressions write it; ModelError with the nearest names when there is none."""
         written = self._written(name)
@@ -193,7 +191,6 @@ class Result(Tabulated):
         """`name` as results write it; None where there is no such quantity."""
         return next((each for each in (name, *in_results(name)) if each in self._selections), None)
 
-    @checked_arguments
     def array(self, name: str, frames: slice = slice(None)) -> NDArray[np.float64]:
         """The numbers of `name`, time first, as a numpy array; `frames` takes a part of the run."""
         if name == "time":
@@ -211,7 +208,6 @@ class Result(Tabulated):
         with understood(self._contents, ATTRIBUTE):
             return Estimate.from_json(str(text))
 
-    @checked_arguments
     def estimated_error(self, name: str) -> NDArray[np.float64]:
         """Estimated errors of `array(name)`, of the same shape and units: at each frame the largest up to then, by a second run.
 
@@ -225,7 +221,6 @@ class Result(Tabulated):
             return np.full_like(values, np.nan)
         return self._estimate.at(found.variable, self.time)[(slice(None), *found.where[1:])]
 
-    @checked_arguments
     def units(self, name: str) -> str:
         """SI units of `name`; nothing for all joint coordinates or constraint rows together: each has its own."""
         if name == "time":
@@ -243,7 +238,6 @@ class Result(Tabulated):
     def __iter__(self) -> Iterator[str]:
         return iter(self.names)
 
-    @checked_arguments
     def __getitem__(self, name: str) -> xarray.DataArray:
         return nivel.results.frames.tabulated.data_array(self, name)
 
@@ -262,7 +256,6 @@ class Result(Tabulated):
         }
         return Rows("time", Column(self.time, "s"), its)
 
-    @checked_arguments
     def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Write the result file, which `nivel.open_result` and `nivel report` read. Raises ModelError where it exists and `force` is
         not given."""
@@ -273,7 +266,6 @@ class Result(Tabulated):
         """Everything as one xarray dataset; read from the file when used where the run is over."""
         return nivel.results.frames.tabulated.dataset(self)
 
-    @checked_arguments
     def recover(self, body: str | None = None, *, file: str | os.PathLike[str] | None = None) -> RecoveredBody:
         """Displacement and stress of a flexible body over the run; without a name, of the only one.
 
@@ -284,7 +276,6 @@ class Result(Tabulated):
 
     # --- for people ---
 
-    @checked_arguments
     def plot(self, *names: str, band: bool = False) -> Figure:
         """Curves of `names` over time, one below the other where units differ; without names the joint coordinates.
 
@@ -292,12 +283,10 @@ class Result(Tabulated):
         """
         return nivel.results.plots.plot(self, names, band)
 
-    @checked_arguments
     def mode(self, number: int, frame: int = -1) -> Result:
         """Vibration `number` (from 1) about an equilibrium of a statics run as a motion of its own, slow and large enough to be seen."""
         return Result(nivel.results.analyses.mode_motion.mode_motion(self, number, frame))
 
-    @checked_arguments
     def report(self, path: str | os.PathLike[str], operated: str = "") -> Path:
         """Write the report as one HTML file that needs no network; an existing file is replaced.
 
@@ -305,17 +294,14 @@ class Result(Tabulated):
         """
         return provided("report")(self, path, operated)
 
-    @checked_arguments
     def animate(self, *others: Result, height: int = 520) -> Inline:
         """Animation of the motion in a notebook, in the viewer; `others` are drawn transparently over it. height : in pixels."""
         return provided("notebook")([self, *others], height)
 
-    @checked_arguments
     def view(self, *others: Result, height: int = 520) -> Inline:
         """As `animate`."""
         return self.animate(*others, height=height)
 
-    @checked_arguments
     def export_scene(self, path: str | os.PathLike[str], *others: Result) -> Path:
         """Write the motion as one HTML page that opens anywhere and needs no network; an existing file is replaced."""
         return provided("scene")([self, *others], path)
@@ -324,18 +310,15 @@ class Result(Tabulated):
         """Peak and RMS force and torque of every joint, and when."""
         return nivel.results.frames.loads.reactions(self)
 
-    @checked_arguments
     def powers(self, *, period: float | str | None = None) -> xarray.Dataset:
         """Peak power, work done and work taken back of every driver, coupling and force that reports its power; with the period of a cycle
         [s] the work in the last whole one, and its mean power."""
         return nivel.results.frames.loads.powers(self, period)
 
-    @checked_arguments
     def cycles(self, name: str, *, repeating: bool = False) -> xarray.Dataset:
         """Rainflow cycles of a signal, e.g. `hinge.force.x`: range, mean and count. repeating : the history goes on as it began."""
         return nivel.results.frames.loads.cycles(self, name, repeating=repeating)
 
-    @checked_arguments
     def shock_response_spectrum(
         self, name: str, frequencies: Sequence[float], *, damping: float = 0.05
     ) -> xarray.DataArray:
@@ -343,13 +326,11 @@ class Result(Tabulated):
         acceleration `name`; during the history and one period after it, in which the base has none."""
         return nivel.results.analyses.vibration.shock_response_spectrum(self, name, frequencies, damping)
 
-    @checked_arguments
     def waterfall(self, name: str, *, resolution: float) -> xarray.DataArray:
         """Amplitudes of a signal over time [s] and frequency [Hz], `resolution` [Hz] apart, by Hann's windows of 1/resolution. A vibration
         of one frequency and amplitude a has a. Frequencies go up to half of that of the frames."""
         return nivel.results.analyses.vibration.waterfall(self, name, resolution)
 
-    @checked_arguments
     def orders(self, name: str, angle: str, *, resolution: float = 0.1, most: float = 10.0) -> xarray.DataArray:
         """Order analysis: amplitudes of a signal over revolutions of `angle` and orders up to `most`, multiples of its speed, `resolution`
         apart, by Hann's windows of 1/resolution revolutions at equal angles; `speed` [rad/s] is a coordinate.
@@ -357,17 +338,14 @@ class Result(Tabulated):
         Raises ModelError for an angle that turns back."""
         return nivel.results.analyses.vibration.orders(self, name, angle, resolution, most)
 
-    @checked_arguments
     def coupler_curve(self, body: str, position: Sequence[float] = (0.0, 0.0, 0.0)) -> xarray.Dataset:
         """The path of a point of a body, given in the body's frame [m]: its motion, curvature and cusps."""
         return nivel.results.analyses.mechanism.coupler_curve(self, body, position)
 
-    @checked_arguments
     def transmission_angle(self, first: str, at: str, last: str) -> xarray.DataArray:
         """[rad] angle at the joint `at` between the lines to the joints `first` and `last`; π/2 transmits best."""
         return nivel.results.analyses.mechanism.transmission_angle(self, first, at, last)
 
-    @checked_arguments
     def export_csv(self, path: str | os.PathLike[str], select: tuple[str, ...] | list[str] = ()) -> Path:
         """Write a table, one row per frame; `select` takes names, elements (`crank`), or patterns (`*.angle`).
 

@@ -20,7 +20,7 @@ from nivel.lazy import asdict, dataclass, nivel
 from nivel.machine.core.vectors import Array, Whole
 from nivel.results.motion import rotation_matrices
 from nivel.results.trust import Trust
-from nivel.words.arguments import checked_arguments
+from nivel.words.arguments import checked_methods
 
 Told = Callable[[str, float], None]  # what is done, and which share of all is, 0 to 1
 
@@ -31,6 +31,7 @@ def _silent(_what: str, _share: float) -> None:
     """Tells nobody."""
 
 
+@checked_methods
 class RecoveredBody:
     """A flexible body of a result: `body` as it is in its `file`, its modal coordinates `q` (t, n) [kg^½ m], and the times of the frames
     `time` (t,) [s].
@@ -60,7 +61,6 @@ class RecoveredBody:
 
     # --- where and when ---
 
-    @checked_arguments
     def node(self, node: int | str) -> int:
         """The number of a node given by it, or by the name of its interface. Raises ModelError where there is none."""
         if isinstance(node, str) and not node.lstrip("-").isdigit():
@@ -75,7 +75,6 @@ class RecoveredBody:
             raise ModelError(f"{self.name} has no node {number}; {known}")
         return number
 
-    @checked_arguments
     def frame(self, time: float) -> int:
         """The frame nearest to `time` [s]. Raises ModelError outside of the run."""
         reach = CLOSE * max(abs(self.time[-1]), abs(self.time[0]))
@@ -83,7 +82,6 @@ class RecoveredBody:
             raise ModelError(f"{time:.6g} s is outside of the run, {self.time[0]:.6g} to {self.time[-1]:.6g} s")
         return int(np.argmin(np.abs(self.time - time)))
 
-    @checked_arguments
     def labels(self, node: int | str) -> list[str]:
         """What the stations at a node are called: fibres of beams; one name, empty, of nodes of solids."""
         names = stress_modes(self.body).labels
@@ -91,7 +89,6 @@ class RecoveredBody:
 
     # --- histories ---
 
-    @checked_arguments
     def displacement(self, node: int | str | None = None) -> Array:
         """(t, 3) [m] of a node, or (t, nodes, 3) of all, in the body frame."""
         if node is None:
@@ -99,22 +96,18 @@ class RecoveredBody:
         place = int(np.flatnonzero(self.body.node_ids == self.node(node))[0])
         return self.q @ self.body.modes[place, :3].T
 
-    @checked_arguments
     def stress(self, node: int | str | None = None) -> Array:
         """(t, stations, 6) [Pa] xx, yy, zz, xy, yz, zx at the stations of a node, default all."""
         return recovery.stress(self.body, self.q, self._stations(node))
 
-    @checked_arguments
     def strain(self, node: int | str | None = None) -> Array:
         """(t, stations, 6), shear as γ. Raises ModelError where the body was reduced without strains."""
         return recovery.strain(self.body, self.q, self._stations(node))
 
-    @checked_arguments
     def von_mises(self, node: int | str | None = None) -> Array:
         """(t, stations) [Pa]"""
         return recovery.von_mises(self.stress(node))
 
-    @checked_arguments
     def signed_principal(self, node: int | str | None = None) -> Array:
         """(t, stations) [Pa] the principal stress of largest magnitude, with its sign."""
         return recovery.signed_principal(self.stress(node))
@@ -134,7 +127,6 @@ class RecoveredBody:
         """[s] when the largest von Mises stress of all was."""
         return float(self.time[self.envelope.worst])
 
-    @checked_arguments
     def hot_spots(self, count: int = 5, *, apart: float = 0.05) -> list[HotSpot]:
         """The places of largest von Mises stress over the run, greatest first; `index` is the frame.
 
@@ -142,7 +134,6 @@ class RecoveredBody:
         """
         return recovery.hot_spots(self.body, self.q, count=count, apart=apart)
 
-    @checked_arguments
     def rainflow(self, node: int | str, station: int | None = None) -> list[Cycle]:
         """Cycles of the signed principal stress [Pa] at a node, ASTM E1049.
 
@@ -150,12 +141,10 @@ class RecoveredBody:
         """
         return recovery.rainflow(self.signed_principal(node)[:, self.widest(node) if station is None else station])
 
-    @checked_arguments
     def widest(self, node: int | str) -> int:
         """The station of a node, a place in `labels(node)`, whose signed principal stress has the largest range."""
         return int(np.argmax(np.ptp(self.signed_principal(node), axis=0)))
 
-    @checked_arguments
     def classes(self, node: int | str, count: int = 8) -> list[tuple[float, float, float]]:
         """The cycles of `rainflow` in `count` classes of equal width: (least range, greatest range [Pa], cycles), greatest first."""
         cycles = self.rainflow(node)
@@ -169,7 +158,6 @@ class RecoveredBody:
 
     # --- pictures ---
 
-    @checked_arguments
     def write_vtk(
         self, path: str | os.PathLike[str], times: Sequence[float] | None = None, *, told: Told = _silent
     ) -> list[Path]:

@@ -1,7 +1,5 @@
 """Statistics of a study: its table, shares within limits, main effects, response surfaces and Sobol indices of its outputs."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from functools import cached_property
@@ -38,7 +36,7 @@ class Table:
     samples: int = 0
 
     @classmethod
-    def of(cls, dataset: xarray.Dataset) -> Table:
+    def of(cls, dataset: "xarray.Dataset") -> "Table":
         """That of the dataset of a study, also of a sweep that had outputs."""
         shape, dims = dataset["outcome"].shape, dataset["outcome"].dims
         names = json.loads(dataset.attrs.get("parameters", "null")) or [

@@ -6,8 +6,6 @@ along the line between the two points; `d1.xz` says that x of the first is not p
 turn φ of the second, a·(φ × b) = φ·(b × a); `across.y` that a slider is off the line of a beam along y of its section.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from typing import Any, Final
 
@@ -51,7 +49,7 @@ class Moments:
     A: Array
 
     @classmethod
-    def of(cls, position: Array, orientation: Array) -> Moments:
+    def of(cls, position: Array, orientation: Array) -> "Moments":
         """position (n, B, 3), orientation (n, B, 4)."""
         return cls(position, rotation(orientation))
 

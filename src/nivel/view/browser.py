@@ -1,7 +1,5 @@
 """A browser without a window, driven over Chromium's DevTools protocol: one page, loaded from a file."""
 
-from __future__ import annotations
-
 import base64
 import itertools
 import json
@@ -71,7 +69,7 @@ def find_browser() -> str | None:
 class Tab:
     """A page in the browser."""
 
-    def __init__(self, connection: ClientConnection) -> None:
+    def __init__(self, connection: "ClientConnection") -> None:
         self._connection = connection
         self._numbers = itertools.count(1)
 

@@ -1,7 +1,5 @@
 """Stills and films: the page draws them in a browser."""
 
-from __future__ import annotations
-
 import json
 import re
 import shutil
@@ -45,7 +43,7 @@ class Look:
     colours: str = ""
 
     @classmethod
-    def of(cls, *, size: str, side: str, rate: int, speed: float, dark: bool, colours: str = "") -> Look:
+    def of(cls, *, size: str, side: str, rate: int, speed: float, dark: bool, colours: str = "") -> "Look":
         """From words. Raises ModelError with all that is wrong."""
         faults = []
         found = re.fullmatch(r"(\d{2,4})\s*[x×*]\s*(\d{2,4})", size.strip())

@@ -83,6 +83,17 @@ def _any_words(wanted: Any) -> Any:
     return Sequence[_any_words(get_args(wanted)[0])] if get_origin(wanted) is Sequence else wanted
 
 
+def checked_methods(made: type[Result]) -> type[Result]:
+    """The class `made`, whose own public methods and `__getitem__` are called only with arguments that fit, as of `checked_arguments`."""
+    for name, method in tuple(vars(made).items()):
+        function = getattr(method, "__func__", method)
+        is_called = isinstance(function, FunctionType) and (not name.startswith("_") or name == "__getitem__")
+        if is_called and len(signature(function).parameters) > 1:
+            checked = checked_arguments(function)
+            setattr(made, name, classmethod(checked) if isinstance(method, classmethod) else checked)
+    return made
+
+
 def checked_fields(made: type[Result]) -> type[Result]:
     """The dataclass `made`, whose fields are held against their types when an object of it is made. Raises ModelError."""
     made.__init__ = checked_arguments(made.__init__)

@@ -1,7 +1,5 @@
 """Every freedom of a machine in words: bodies that are free, bodies that turn idly, joint coordinates and what moves with them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Final
 
@@ -42,7 +40,7 @@ class Freedoms:
         size = np.maximum(np.linalg.norm(derivatives, axis=1), 1e-300)
         return np.linalg.norm(self.left(derivatives), axis=1) > WITHOUT_MOTION * size
 
-    def without(self, derivatives: Array) -> Freedoms:
+    def without(self, derivatives: Array) -> "Freedoms":
         """The motions in which these numbers stay."""
         left = self.left(derivatives)
         if not left.size:

@@ -10,8 +10,6 @@ depend on them. Minors of C_q are analytic in the positions, so what vanishes at
 Where this cannot be shown, rows are chosen by pivots in every evaluation.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Iterator, Sequence
 from itertools import chain, combinations, islice
@@ -72,7 +70,7 @@ def exact_joints(machine: MachineRecord, motion: MotionEquations, repeated: Coll
     return tuple(proposed)
 
 
-def _chosen(machine: MachineRecord, motion: MotionEquations, N: Array, names: Collection[str]) -> Sequence[_Change]:
+def _chosen(machine: MachineRecord, motion: MotionEquations, N: Array, names: Collection[str]) -> "Sequence[_Change]":
     """The changes of some elements. N (rows, surplus) : multipliers without effect, of rows as they are."""
     surplus = N.shape[1]
     changes = list(_changes(machine, motion, N, names))
@@ -105,7 +103,7 @@ def _groups(motion: MotionEquations, N: Array, repeated: Sequence[str]) -> list[
     return [set(names[group == k].tolist()) for k in dict.fromkeys(group.tolist())]
 
 
-def _fewest(changes: Sequence[_Change], surplus: int, left_out: int = 0) -> Sequence[_Change]:
+def _fewest(changes: "Sequence[_Change]", surplus: int, left_out: int = 0) -> "Sequence[_Change]":
     """The first of the fewest changes that give up as many rows as are too many, with independent ones left; `left_out`: how many elements
     may be."""
     looked_at = 0

@@ -5,8 +5,6 @@ of several steps look at the ends of steps, and their curve passes through those
 integral, where the function has a corner a straight line.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from typing import Any
@@ -47,7 +45,7 @@ class Steps:
     begin: Array
     length: Array
 
-    def until(self, end: float) -> Steps:
+    def until(self, end: float) -> "Steps":
         """Those that begin before `end` [s]."""
         count = max(1, int(np.searchsorted(self.begin, end)))
         return Steps(self.begin[:count], self.length[:count])

@@ -6,8 +6,6 @@ rms(…)  mean(…)  integral(…)   over the time of the run
 time(lift)                when the event `lift` came for the first time
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, get_args
 
@@ -37,7 +35,7 @@ class Moving(NamedTuple):
     last: float = 0.0
 
     @property
-    def thinned(self) -> Moving:
+    def thinned(self) -> "Moving":
         """With every other frame, and the last one."""
         frames = np.unique(np.append(np.arange(0, len(self.curve.time), 2), len(self.curve.time) - 1))
         return self._replace(curve=_some(self.curve, frames), slope=_some(self.slope, frames))

@@ -1,7 +1,5 @@
 """Handles of a machine: joint coordinates, angles of spherical joints, and places and angles of bodies that nothing else moves."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Final, Protocol
 
@@ -263,7 +261,7 @@ class FrameHandle:
     def single(self, k: int, value: float, state: Array) -> Wish:
         return Wish(aims=(FrameAim(self.frame, {self.axes[k]: value}, state, self.size),))
 
-    def needed(self, q: Array, state: Array, free: Freedoms) -> FrameHandle | None:
+    def needed(self, q: Array, state: Array, free: Freedoms) -> "FrameHandle | None":
         """The handle with those axes only that move apart from each other; None where none moves."""
         derivatives = self._all_derivatives(q, state, whole=False)[list(self.axes)]
         chosen = free.independent(derivatives)

@@ -20,8 +20,6 @@ where K_a is what of the stiffness is not symmetrical. A stiffness is none where
 |Φ|ᵀ |K| |Φ|: a thin strip keeps its slow vibration beside fast ones, however far apart these are.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -50,7 +48,7 @@ class Graded:
     noise: Array
     basis: Array
 
-    def kept(self, some: NDArray[np.intp]) -> Graded:
+    def kept(self, some: NDArray[np.intp]) -> "Graded":
         """Of these states alone, all of the others being states of elements."""
         chosen = np.ix_(some, some)
         return Graded(self.A[chosen], self.noise[chosen], self.basis[chosen])
@@ -175,7 +173,7 @@ class Eigen:
     zeros: tuple[tuple[int, ...], ...]
     known: Array
 
-    def unknown(self) -> Eigen:
+    def unknown(self) -> "Eigen":
         """As many that are not numbers: of equations that change, whose eigenvalues describe no motion."""
         n = len(self.values)
         none, vectors = np.full(n, complex(np.nan, np.nan)), np.full((n, n), complex(np.nan, np.nan))

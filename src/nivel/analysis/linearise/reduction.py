@@ -11,8 +11,6 @@ wheels that do not slip. States are s = S_q δq, w = S_v δv and δx, where S se
 The matrix K holds ∂(C_qᵀ λ)/∂q, the stiffness of the reactions.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import Any
 
@@ -78,7 +76,7 @@ class Reduction:
     ) -> None:
         self.instant, self.ports, self._chosen, self._reader, self._axes = instant, ports, chosen, reader, axes
 
-    def evaluated_again(self) -> Reduction:
+    def evaluated_again(self) -> "Reduction":
         """The same equations of what the instant is now, in the same coordinates."""
         return Reduction(self.instant, self.ports, self._reader, self.chosen, self._axes)
 

@@ -8,8 +8,6 @@ and so do modes. With these velocities and accelerations as functions of the pos
 so that flexible bodies and beams are strained by the centrifugal forces, and hinged blades stand at their coning angle.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 
@@ -42,7 +40,7 @@ class Rotation:
     held: Array
 
     @classmethod
-    def of(cls, own: Instant) -> Rotation:
+    def of(cls, own: Instant) -> "Rotation":
         """That of the body that turns fastest at an instant; none where all are at rest.
 
         Raises ModelError where that body moves along its axis, or gravity acts across the axis.
@@ -73,7 +71,7 @@ class Rotation:
                 held[first:last] = own.y[own.positions + first : own.positions + last]
         return cls(omega, bodies.R[body, ..., 0] + np.cross(omega, rate) / square, held)
 
-    def __mul__(self, share: float) -> Rotation:
+    def __mul__(self, share: float) -> "Rotation":
         return replace(self, omega=share * self.omega, held=share * self.held)
 
     def field(self, own: Instant) -> tuple[Array, Array, Array, Array]:

@@ -1,7 +1,5 @@
 """Plan of a run, decided before anything is built or computed: the methods, where they are, and all settings."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from typing import Final
 
@@ -82,7 +80,7 @@ class Methods:
     sliding: bool
     path: PathFacts
     integrator: IntegratorFacts
-    stiff: Methods | None = None
+    stiff: "Methods | None" = None
 
     @property
     def solves_residual(self) -> bool:

@@ -1,7 +1,5 @@
 """Settings of a run: what was asked for, completed and checked."""
 
-from __future__ import annotations
-
 from math import ceil
 from typing import TypeVar
 
@@ -60,7 +58,7 @@ class RunSettings:
         return self.duration / self.output_interval + 2.0
 
     @property
-    def with_usual_frames(self) -> RunSettings:
+    def with_usual_frames(self) -> "RunSettings":
         """The same run with frames that are no farther apart than without an output interval: numbers are made from these, whatever frames
         are asked for."""
         if not self.steps:

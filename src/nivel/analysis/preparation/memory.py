@@ -12,8 +12,6 @@ What an evaluation leaves (`work` of `nivel.kernels.core.arrays`) is workspace, 
 in the tables here. Everything else is given.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from enum import Enum
 from functools import cache, cached_property
@@ -259,7 +257,7 @@ class MachineMemory:
         spans = [leaf.array.ctypes.data + 8 * np.arange(leaf.array.size) for leaf in self.real]
         return np.concatenate([np.zeros(0, dtype=np.int64), *spans])
 
-    def refuse_unlike(self, other: MachineMemory) -> None:
+    def refuse_unlike(self, other: "MachineMemory") -> None:
         """Raise UnlikeError where another machine differs in more than real numbers."""
         for mine, theirs in zip(self.leaves, other.leaves, strict=True):
             if mine.array.shape != theirs.array.shape:
@@ -269,7 +267,7 @@ class MachineMemory:
             if (mine.array != theirs.array)[~mine.workspace].any():
                 raise UnlikeError(mine.name, "whole")
 
-    def differences(self, numbers: Array, other: MachineMemory) -> list[str]:
+    def differences(self, numbers: Array, other: "MachineMemory") -> list[str]:
         """Arrays in which given numbers and states `numbers` (n,) are not those of another machine. Raises UnlikeError."""
         self.refuse_unlike(other)
         wanted, scale = other.numbers, np.maximum(self.scales, other.scales)

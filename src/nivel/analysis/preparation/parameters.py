@@ -7,8 +7,6 @@ others as the weights that their Loewner matrix makes least (Nakatsukasa, Sète,
 coefficients, to round-off, so that it holds beyond them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Final, NamedTuple
 
@@ -79,7 +77,7 @@ class Numbers:
         outer = np.where(self.powers == 1.0, 1.0, self.signs * self.powers * np.abs(z) ** (self.powers - 1.0))
         return outer[:, None] * (of_above - above / below * of_below) / below / self.widths
 
-    def among(self, chosen: NDArray[np.bool_]) -> Numbers:
+    def among(self, chosen: NDArray[np.bool_]) -> "Numbers":
         """Some of them."""
         names = ("places", "constants", "powers", "signs", "factors", "divisors")
         return replace(self, **{name: getattr(self, name)[chosen] for name in names})

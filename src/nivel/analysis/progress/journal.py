@@ -3,8 +3,6 @@
 A line that was not written to its end, because the program was killed or the disk was full, does not count.
 """
 
-from __future__ import annotations
-
 import base64
 import json
 import os
@@ -53,7 +51,7 @@ def _contents(data: Any) -> Iterator[str]:
 @contextmanager
 def open_journal(
     target: Path | None, of: str, what: str, *, resume: bool = False, force: bool = False, sources: Sequence[Path] = ()
-) -> Iterator[Journal | None]:
+) -> "Iterator[Journal | None]":
     """The journal beside `target`, the data file of a study; None without one. of : its fingerprint. what : `variants`, for messages.
 
     When the block ends it is removed where it is `complete`. Raises ModelError where there is a journal that is neither to be used nor

@@ -1,7 +1,5 @@
 """A log of a long computation: plain lines for a file or a pipe, where no bar can be drawn."""
 
-from __future__ import annotations
-
 import re
 import sys
 import time
@@ -88,7 +86,7 @@ def _steps(share: float) -> int:
     return int(STEPS * share + 1e-9)
 
 
-def bar_of(*columns: Any) -> rich.progress.Progress:
+def bar_of(*columns: Any) -> "rich.progress.Progress":
     """A bar in a terminal, gone when it ends: what is being done, how far, and these columns."""
     first = (rich.progress.TextColumn("{task.description}"), rich.progress.BarColumn())
     return rich.progress.Progress(*first, *columns, console=rich.console.Console(stderr=True), transient=True)

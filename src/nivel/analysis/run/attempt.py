@@ -1,7 +1,5 @@
 """A run with the second run beside it, and one with other elements of its beams: what a trust report looks at."""
 
-from __future__ import annotations
-
 import threading
 import time as clock_of_python
 from collections.abc import Callable, Iterator
@@ -216,7 +214,7 @@ class SecondRun:
         self,
         plan: Plan,
         limit: float | None,
-        beside: SecondRun | None = None,
+        beside: "SecondRun | None" = None,
         words: str = "",
         prepared: Prepared | None = None,
     ) -> None:
@@ -371,7 +369,7 @@ class ElementsRun:
     run: SecondRun
 
     @classmethod
-    def beside(cls, second: SecondRun, plan: Plan, limit: float | None) -> ElementsRun | None:
+    def beside(cls, second: SecondRun, plan: Plan, limit: float | None) -> "ElementsRun | None":
         """Of a plan that has a second run; None where there are no beams. limit [s] : as of `SecondRun`."""
         pair = nivel.judge.after.other_elements.other_elements(plan.machine)
         if pair is None:

@@ -8,8 +8,6 @@ run goes on as it is, and *Loads* of the trust report tells.
 Stretches are counted in steps, so that the motion is the same however a run is cut into chunks.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -79,7 +77,7 @@ class NarrowFeatures:
         self._ends: list[Array] = [np.zeros(1)]
 
     @classmethod
-    def of(cls, prepared: Prepared, ends: int) -> NarrowFeatures | None:
+    def of(cls, prepared: Prepared, ends: int) -> "NarrowFeatures | None":
         """Those of a machine; None where nothing can have any, or the run does not keep the `ends` of its steps."""
         if prepared.machine is None or not ends:
             return None

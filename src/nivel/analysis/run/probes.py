@@ -3,8 +3,6 @@
 A vibration with whole periods between two frames looks like rest in all of them. No number of periods fits the times of probes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from math import sqrt
 
@@ -46,7 +44,7 @@ class Probes:
         self._known, self._rate = _rates(layout)
 
     @classmethod
-    def of(cls, motion: MotionEquations, run: Run, duration: float) -> Probes | None:
+    def of(cls, motion: MotionEquations, run: Run, duration: float) -> "Probes | None":
         """Those of a run; None where every step is a frame, or what frames show is not what steps evaluate."""
         steered = bool(np.any(motion.system.record.control.stabilise[:2]))
         times = np.sort(duration * np.modf(GOLDEN * np.arange(1, PROBES + 1))[0])

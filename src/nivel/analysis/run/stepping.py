@@ -1,7 +1,5 @@
 """A machine that moves step by step, as its caller asks: for control in Python, learning, and coupling with other programs."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
@@ -77,7 +75,7 @@ class Snapshot:
             np.savez(file, **facts, **named)  # type: ignore[arg-type]
 
     @classmethod
-    def open(cls, path: str | PathLike[str]) -> Snapshot:
+    def open(cls, path: str | PathLike[str]) -> "Snapshot":
         """Read a file that `save` wrote. Raises ModelError where it is none."""
         try:
             with np.load(path, allow_pickle=False) as data:
@@ -528,7 +526,7 @@ class Simulation:
     def _structure(self) -> prepared_state.Structure:
         return prepared_state.structure_of(self._plan, self._prepared)
 
-    def copy(self) -> Simulation:
+    def copy(self) -> "Simulation":
         """Another one at this moment, which goes on by itself; what was recorded stays with this one."""
         return _revived(self._plan.machine, str(self._header.attributes["machine_source"]), self._recorded, self.state)
 

@@ -9,8 +9,6 @@ its mass, and what a motion stretches has the stretch of the way from the start:
 Sampled states are at rest where a sample would leave them as they are.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -54,11 +52,11 @@ class Since:
     moved: Array
 
     @classmethod
-    def start(cls, equations: StaticEquations, state: Rest) -> Since:
+    def start(cls, equations: StaticEquations, state: Rest) -> "Since":
         """Nothing has moved yet."""
         return cls(state.y[equations.first_state :][: equations.state_count].copy(), np.zeros(len(equations.free)))
 
-    def further(self, change: Array) -> Since:
+    def further(self, change: Array) -> "Since":
         """After a change of the free unknowns."""
         return Since(self.states, self.moved + change)
 

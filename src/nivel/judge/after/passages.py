@@ -7,8 +7,6 @@ not known which these are, rows are chosen by pivots, and the last of these stan
 run, and one that has a minimum far below its middle value also between frames, on a parabola through three of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterator
 from functools import cached_property
 from importlib import import_module
@@ -168,7 +166,7 @@ class Track:
     pivots: RowPivots
 
     @classmethod
-    def of(cls, result: Readable, pivots: RowPivots) -> Track:
+    def of(cls, result: Readable, pivots: RowPivots) -> "Track":
         """Of a result with all bodies."""
         system = pivots.motion.system
         n = len(result.time)

@@ -1,7 +1,5 @@
 """The touching parts of a contact: the shape of a body, or of a marker on one, and where it is in the body."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np
@@ -28,12 +26,12 @@ class Touching:
     axes: Array = field(default_factory=lambda: np.eye(3))
 
     @classmethod
-    def of_body(cls, body: Body) -> Touching:
+    def of_body(cls, body: Body) -> "Touching":
         """The shape of a body."""
         return cls(body.name, body.name, body.shape)
 
     @classmethod
-    def of_marker(cls, marker: Marker) -> Touching:
+    def of_marker(cls, marker: Marker) -> "Touching":
         """The shape of a marker."""
         return cls(marker.name or "", marker.body, marker.shape, *marker_frame(marker))
 

@@ -1,7 +1,5 @@
 """The names of a machine and what they lead to. Reads raw data too: what makes no sense is passed over."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
@@ -68,7 +66,7 @@ class Index:
     sensors: Mapping[str, Any]
 
     @classmethod
-    def of(cls, machine: Any) -> Index:
+    def of(cls, machine: Any) -> "Index":
         """The index of a machine record, or of what it is made of."""
         bodies, beams = _shapes(_by_name(machine, "bodies")), _stations(machine)
         markers = _by_name(machine, "markers")

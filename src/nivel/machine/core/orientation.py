@@ -4,8 +4,6 @@ A rotation matrix A has the axes of the turned frame as columns, given in the pa
 Euler parameters are (cos φ/2, n sin φ/2), scalar first, for a turn by φ about the unit axis n.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Final
 
 import numpy as np
@@ -60,7 +58,7 @@ class Orientation(Record):
     )
 
     @model_validator(mode="after")
-    def _one_form(self) -> Orientation:
+    def _one_form(self) -> "Orientation":
         given = [name for name in _FORMS if getattr(self, name) is not None]
         if len(given) > 1:
             raise fault(f"give one of {', '.join(_FORMS)}; got {' and '.join(given)}")

@@ -1,7 +1,5 @@
 """A Python function as a value that varies. Its text is checked by its syntax tree only: nothing is run here."""
 
-from __future__ import annotations
-
 import ast
 import warnings
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
@@ -44,7 +42,7 @@ class PythonLaw:
 
     @classmethod
     @checked_arguments
-    def of(cls, function: Callable[..., Any], arguments: Sequence[object] = ()) -> PythonLaw:
+    def of(cls, function: Callable[..., Any], arguments: Sequence[object] = ()) -> "PythonLaw":
         """The law that a function of this program is. Modules, numbers and functions that it uses go with it.
 
         Raises ModelError where its text cannot be had, or where it uses something else that stands outside of it.

@@ -1,7 +1,5 @@
 """Values that vary: at points, with straight lines or a smooth curve between them, or by arithmetic of `time` and signals."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
@@ -235,7 +233,7 @@ class Expression:
         return signals(self.tree)
 
     @cached_property
-    def derivative(self) -> Expression:
+    def derivative(self) -> "Expression":
         """The exact derivative with respect to time.
 
         Raises ExpressionError where there is none: corners, signals.

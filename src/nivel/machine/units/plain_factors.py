@@ -8,8 +8,6 @@ kg, m, s, …; a sum, a comparison, an argument of a function and the kind of th
 factors that satisfy all equations are the answer, and it is offered only if the changed text is accepted.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from copy import deepcopy
 from itertools import combinations, islice, product
@@ -121,7 +119,7 @@ class _Affine:
     known: Dimension
     factors: Mapping[Leaf, float] = field(default_factory=dict)
 
-    def plus(self, other: _Affine, times: float) -> _Affine:
+    def plus(self, other: "_Affine", times: float) -> "_Affine":
         known = tuple(a + times * b for a, b in zip(self.known, other.known, strict=True))
         names = self.factors.keys() | other.factors.keys()
         return _Affine(

@@ -5,8 +5,6 @@ number, which is SI, or a text with units and arithmetic, whose dimension must b
 file come in through the validation context: ``{"parameters": {"radius": Number(0.25)}}``.
 """
 
-from __future__ import annotations
-
 import numbers
 import re
 from collections.abc import Callable, Collection, Mapping
@@ -40,7 +38,7 @@ ANY: Kind = ()  # whatever it measures
 LARGEST = 1e100  # squares of such numbers, and products of three, can be held
 
 
-def fault(message: str, *, at_key: bool = False, lacking: LackingUnitError | None = None) -> PydanticCustomError:
+def fault(message: str, *, at_key: bool = False, lacking: "LackingUnitError | None" = None) -> PydanticCustomError:
     """A validation error whose text is `message`, ready for people; `at_key`: not the value is wrong but its key.
 
     lacking : of an expression, if functions that it calls are at fault

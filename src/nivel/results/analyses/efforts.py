@@ -1,8 +1,6 @@
 """Results of inverse analyses: efforts of actuators over a motion, with peaks, work and what is missing; and the path of joints that a
 point leads."""
 
-from __future__ import annotations
-
 import csv
 import json
 from os import PathLike
@@ -106,7 +104,7 @@ class Efforts(Tabulated):
         told = [item for item in self.trust.items if item.verdict != "green" or item.name in SAID]
         return [item.text for item in told]
 
-    def to_xarray(self) -> xarray.Dataset:
+    def to_xarray(self) -> "xarray.Dataset":
         """Histories with names and units."""
         dims = ("time", "actuator")
         values = {
@@ -191,7 +189,7 @@ class JointPath(Tabulated):
             f"{self.time[k]:.6g} s the nearest found is {self.error[k, 0]:.4g} m and {self.error[k, 1]:.4g} rad away{held}"
         ]
 
-    def to_xarray(self) -> xarray.Dataset:
+    def to_xarray(self) -> "xarray.Dataset":
         """Coordinates, errors and measures over time."""
         measures = ("reached", "manipulability", "smallest_singular_value")
         values = {

@@ -1,7 +1,5 @@
 """Linear models over the values of a parameter: how eigenvalues move, and where vibrations meet multiples of a speed."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from functools import cached_property
@@ -88,7 +86,7 @@ class LinearSweep:
             out[k] = model.eigenvalues[order]
         return out
 
-    def to_xarray(self) -> xarray.Dataset:
+    def to_xarray(self) -> "xarray.Dataset":
         """Eigenvalues, natural frequencies and damping ratios over the parameter."""
         found = self.eigenvalues
         size = np.abs(found)

@@ -1,7 +1,5 @@
 """Analyses of mechanisms: coupler curves, transmission angles, ranges of motion, and all positions that one free motion comes through."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from os import PathLike
@@ -91,7 +89,7 @@ def _fault(field: str, message: str) -> ModelError:
     return ModelError(Fault.at(f"kinematics.{field}", message))
 
 
-def coupler_curve(result: Result, body: str, position: Sequence[float] = (0.0, 0.0, 0.0)) -> xarray.Dataset:
+def coupler_curve(result: Result, body: str, position: Sequence[float] = (0.0, 0.0, 0.0)) -> "xarray.Dataset":
     """The path of a point of a body, given in the axes of its frame [m]: position, velocity, acceleration, speed and curvature.
 
     curvature |ṙ × r̈|/|ṙ|³ [1/m], not a number where the point stands still; cusp : 1 where it does while it accelerates.
@@ -124,7 +122,7 @@ def coupler_curve(result: Result, body: str, position: Sequence[float] = (0.0, 0
     return xarray.Dataset(values, coords={"time": result.time, "xyz": list("xyz")}, attrs={"body": body})
 
 
-def transmission_angle(result: Result, first: str, at: str, last: str) -> xarray.DataArray:
+def transmission_angle(result: Result, first: str, at: str, last: str) -> "xarray.DataArray":
     """[rad] angle at joint `at` between the lines to the joints `first` and `last`, from 0 to π; π/2 transmits best.
 
     Where `last` slides along a line, that between the line to `first` and the normal of the slide, from 0 to π/2. Raises ModelError for
@@ -252,7 +250,7 @@ class ConfigurationCurve(Tabulated):
     crossed: tuple[float, ...]
     trust: Trust = field(default_factory=lambda: Trust("green", "done"))
 
-    def to_xarray(self) -> xarray.Dataset:
+    def to_xarray(self) -> "xarray.Dataset":
         """The joint coordinates over the curve."""
         values = {
             name: (("arc",), self.values[:, k], {"units": unit})

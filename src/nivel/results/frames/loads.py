@@ -1,7 +1,5 @@
 """Loads of a result: peak and RMS reactions, power and work of actuators, cycles of any signal."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
@@ -28,7 +26,7 @@ from nivel.results.curve import (
 )
 
 
-def reactions(result: Result) -> xarray.Dataset:
+def reactions(result: Result) -> "xarray.Dataset":
     """Largest magnitude, its time and RMS over time of the force [N] and torque [N m] of every joint, between frames too.
 
     The attributes have the trust report of the result; what the frames leave open is not verified. Raises ModelError for a result
@@ -67,7 +65,7 @@ def open_numbers(of: Curve, found: Number, words: str, names: Sequence[str], uni
     return [f"{words.format(names[k])} between frames, which may be off by {found.doubt[k]:.2g} {units}"]
 
 
-def powers(result: Result, period: float | str | None = None) -> xarray.Dataset:
+def powers(result: Result, period: float | str | None = None) -> "xarray.Dataset":
     """Of every driver, coupling and force that reports its power: the largest magnitude [W], the work done and the work taken back [J].
 
     period : [s] of a cycle; then also the work of the last whole one [J], and its mean power [W]. Raises ModelError for a result without
@@ -115,7 +113,7 @@ def _of_cycle(power: Curve, period: float) -> Number:
     return integral(power.within(max(last - period, first), last))
 
 
-def cycles(result: Result, name: str, *, repeating: bool = False) -> xarray.Dataset:
+def cycles(result: Result, name: str, *, repeating: bool = False) -> "xarray.Dataset":
     """Rainflow cycles (ASTM E1049, section 5.4.4) of a signal by its name, a number at a time: range, mean and count, ranges ascending.
     It turns back between frames too.
 

@@ -1,7 +1,5 @@
 """Events and summary of a run."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from html import escape
@@ -158,7 +156,7 @@ class Iterations:
         return self.total / self.steps
 
     @classmethod
-    def from_json(cls, text: str) -> Iterations | None:
+    def from_json(cls, text: str) -> "Iterations | None":
         """That of an attribute of a result; None where nothing was iterated."""
         stored = json.loads(text or "null")
         if stored is None:

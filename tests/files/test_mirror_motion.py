@@ -5,7 +5,7 @@ import pytest
 
 from nivel.api import Machine
 from nivel.files import parse_machine
-from nivel.files.placed import placed
+from nivel.files.assembly import placed
 from nivel.files.placement import Placement
 from nivel.machine.core.orientation import Orientation
 from nivel.machine.uses.references import SECTIONS

@@ -6,7 +6,7 @@ import pytest
 from nivel import Body, Joint, Marker, PointForce
 from nivel.elements.joints import JOINTS
 from nivel.files import parse_machine
-from nivel.files.placed import placed
+from nivel.files.assembly import placed
 from nivel.files.placement import Placement, Scene
 from nivel.files.substitution import NotRepresentableError
 from nivel.machine.bodies.inertia import mass_properties

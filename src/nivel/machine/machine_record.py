@@ -39,8 +39,7 @@ from nivel.machine.laws.functions import MachineFunction, functions_of
 from nivel.machine.settings.run import AssemblySettings, SimulationSettings
 from nivel.machine.units.quantity import AccelerationVector, fault, listed, parameters_of, shown
 from nivel.machine.uses.coordinate_uses import with_whole_coordinates
-from nivel.machine.uses.interface_uses import problems_of_interfaces
-from nivel.machine.uses.references import reference_faults
+from nivel.machine.uses.references import problems_of_interfaces, reference_faults
 
 if TYPE_CHECKING:
     from nivel.elements.beams.beam import Beam

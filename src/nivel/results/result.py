@@ -118,7 +118,6 @@ class Result(Tabulated):
         """Strains, forces and moments along a beam at all times; see `nivel.results.beams`."""
         return nivel.results.beams.beam_sections(self, beam)
 
-    @checked_arguments
     def ground(self, time: float, under: str | None = None) -> NDArray[np.float64]:
         """Heights [m] of soil at a time [s], rows along y and columns along x of its plane. under : of several the first force on it."""
         return nivel.results.terrain.ground(self.attributes, time, under)

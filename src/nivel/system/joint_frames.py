@@ -20,7 +20,7 @@ from nivel.machine.core.marker import Marker
 from nivel.machine.core.placement import frame_from_axes, marker_frame
 from nivel.machine.core.vectors import cross
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.uses.interface_uses import markers_of
+from nivel.machine.uses.references import markers_of
 from nivel.system.flexible import reduced_body
 from nivel.system.tables import Array
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
-from nivel.judge.finding import Finding
+from nivel.judge.before.circuits import Finding
 from nivel.known import Contact
 from nivel.lazy import nivel
 from nivel.machine.bodies.body import Body

@@ -1,15 +1,17 @@
-"""References of a machine: everything that it mentions exists. Reads raw data too: one fault hides no other."""
+"""References of a machine: everything that it mentions exists, interfaces too. Reads raw data too: one fault hides no other."""
 
 from collections.abc import Collection, Iterator, Mapping
 from contextlib import suppress
 from typing import Any, Final
 
 from nivel.elements.joints import JOINTS
+from nivel.known import MachineRecord
 from nivel.lazy import nivel
 from nivel.machine.bodies.point_masses import point_mass_faults
 from nivel.machine.bodies.touching import HULLS, ROUND, SHAPES_ON_PLANE
-from nivel.machine.core.index import SECTIONS, Index, Place, as_list, elements
-from nivel.machine.core.record import GROUND, Record, entry, unknown_word
+from nivel.machine.core.index import SECTIONS, Index, as_list, elements
+from nivel.machine.core.marker import Marker
+from nivel.machine.core.record import GROUND, Place, Problem, Record, entry, unknown_word
 from nivel.machine.laws.symbols import UnknownSymbolError, find_in, outputs_of, paths_in, states_of, symbol_faults
 from nivel.machine.units.tree import Parameters
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, unknown_name
@@ -323,3 +325,38 @@ def _unknown_marker(name: Any, index: Index, place: Place) -> Faults:
 def _unknown(name: Any, known: Collection[str], what: str, place: Place) -> Faults:
     if isinstance(name, str) and name not in known:
         yield place, unknown_name(what, name, tuple(known))
+
+
+def problems_of_interfaces(machine: MachineRecord) -> Iterator[Problem]:
+    """Interfaces that are asked for on bodies that are not flexible."""
+    flexible = {body.name for body in machine.bodies if body.flexible is not None}
+    for place, marker in markers_of(machine):
+        if marker.interface is not None and marker.body not in flexible:
+            yield Problem(
+                (*place, "interface"), f"`{marker.body}` is not flexible and has no interfaces: give a `position`"
+            )
+    for at, joint in enumerate(machine.joints):
+        if joint.interface is not None and not flexible & set(joint.bodies or ()):
+            yield Problem(
+                ("joints", at, "interface"), "neither of the bodies is flexible and has interfaces: give a `point`"
+            )
+
+
+def markers_of(machine: MachineRecord) -> Iterator[tuple[Place, Marker]]:
+    """Every marker of the machine, also those written out inside an element."""
+    for at, marker in enumerate(machine.markers):
+        yield ("markers", at), marker
+    keys = {
+        "joints": ("markers",),
+        "forces": ("markers", "wheel", "plane"),
+        "hydraulics": ("markers",),
+        "sensors": ("distance", "angle"),
+    }
+    for section, names in keys.items():
+        for at, element in enumerate(getattr(machine, section)):
+            for key in names:
+                ends = getattr(element, key, None)
+                if isinstance(ends, Marker):
+                    yield (section, at, key), ends
+                elif isinstance(ends, tuple):
+                    yield from (((section, at, key, k), end) for k, end in enumerate(ends) if isinstance(end, Marker))

@@ -1,5 +1,7 @@
 """Verdicts of a result: what checks have found, the thresholds that it is held against, and the verdict in words."""
 
+from __future__ import annotations  # types of fields are read as text
+
 import json
 import math
 from collections.abc import Callable, Iterable, Mapping
@@ -37,7 +39,7 @@ class Threshold:
         mantissa, exponent = f"{value:.3e}".split("e")
         return f"{mantissa}e{int(exponent)}"
 
-    def item(self, name: str, text: str, value: float, time: float | None = None, row: str = "") -> "Item":
+    def item(self, name: str, text: str, value: float, time: float | None = None, row: str = "") -> Item:
         """The line of a number that is held against this threshold."""
         return Item(name, self.verdict(value), f"{text} ({self})", value, self.green, self.amber, row, time)
 
@@ -155,7 +157,7 @@ class Trust:
         return json.dumps({**storable(flat, str), "found": found}, ensure_ascii=False)
 
     @classmethod
-    def from_json(cls, text: str) -> "Trust":
+    def from_json(cls, text: str) -> Trust:
         """Read what `to_json` wrote, or an earlier version, which has the names of KEYS alone; those of later versions are passed over."""
         data = json.loads(text)
         items = tuple(Item(**_known(Item, each)) for each in data["items"])
@@ -266,7 +268,7 @@ class Trust:
         worst = max(self.found.get("quantities", ()), key=lambda each: each["error"] / each["extent"], default={})
         return worst if worst and worst["error"] > ROUNDED * worst["extent"] else {}
 
-    def of_derived(self, *lacks: str) -> "Trust":
+    def of_derived(self, *lacks: str) -> Trust:
         """The trust report of numbers that were computed from the result: the same, of which also `lacks` is not verified, in words."""
         if not lacks:
             return self

@@ -98,7 +98,6 @@ def _of_warmth(component: Any, place: Place, gas: bool, warm: bool) -> Faults:
         yield (*place, WALLS), f"`{WALLS}` belongs to gases, and to liquids whose temperature is a state; {HOW}"
 
 
-Faults = Iterator[tuple[Place, str]]
 SIGNAL: Final = "load-sensing"
 MOST_PUMPS: Final = 8  # of an engine
 BOUNDING: Final = ("margin", "cut_off_curve")  # with these the pressure sets the displacement of a pump

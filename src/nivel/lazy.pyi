@@ -201,6 +201,7 @@ import nivel.native.store
 import nivel.native.workers
 import nivel.report
 import nivel.report.handling_page
+import nivel.report.kc_page
 import nivel.report.reduction_page
 import nivel.report.study_page
 import nivel.results
@@ -230,6 +231,7 @@ import nivel.studies
 import nivel.system
 import nivel.system.beam_nodes
 import nivel.system.beam_tables
+import nivel.system.builder
 import nivel.system.circuit_elements
 import nivel.system.circuit_tangent
 import nivel.system.elimination

@@ -61,14 +61,19 @@ def command(machine: str, overrides: dict[str, str], only: tuple[str, ...] | Non
     finally:  # what was driven before one that fails is kept
         if found:
             nivel.files.target.write_file(page, "page", nivel.report.handling_page.handling_html(loaded.name, found))
+    tell({name: (numbers, trust) for name, (_, numbers, trust) in found.items()}, page, quiet=quiet, as_json=as_json)
+
+
+def tell(told: Mapping[str, tuple[Numbers, str]], page: Path, *, quiet: bool, as_json: bool) -> None:
+    """Print numbers with their verdicts, as JSON or in lines."""
     if as_json:
-        told = {
+        values = {
             name: {what: value for what, (value, _) in numbers.items()} | {"trust": trust}
-            for name, (_, numbers, trust) in found.items()
+            for name, (numbers, trust) in told.items()
         }
-        click.echo(json.dumps(told, indent=2))
+        click.echo(json.dumps(values, indent=2))
     elif not quiet:
-        for name, (_, numbers, trust) in found.items():
+        for name, (numbers, trust) in told.items():
             click.echo(f"{name} (trust: {trust})")
             for what, (value, unit) in numbers.items():
                 click.echo(f"  {what}: {value:.5g} {unit}")

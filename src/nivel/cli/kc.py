@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 import numpy as np
 
+from nivel.cli.handling import tell
 from nivel.cli.options import file_argument, json_option, override_option, separated
 from nivel.cli.progress import progress_listener
 from nivel.errors import Fault, ModelError
@@ -39,19 +39,14 @@ CASES: Final[Mapping[str, tuple[tuple[int, int], tuple[int, int, int]]]] = {
 @click.option("--hold", metavar="COORDINATES", multiple=True, callback=separated, help="Coordinates that stay.")
 @click.option("--travel", default=0.05, show_default=True, help="Way of the wheels up and down [m].")
 @click.option("--load", default=1000.0, show_default=True, help="Force [N] at each wheel; moments are 0.1 m of it.")
-@click.option(
-    "--braking",
-    metavar="L,H,SHARE",
-    multiple=True,
-    callback=separated,
-    help="For anti-dive: wheelbase, height of the centre of mass [m], share of the front brakes.",
-)
+@click.option("--braking", nargs=3, type=click.FloatRange(0.0, min_open=True), metavar="L H SHARE",
+              help="For anti-dive: wheelbase, height of the centre of mass [m], share of the front brakes.")  # fmt: skip
 @click.option("--out", type=click.Path(dir_okay=False), help="Page; default: MACHINE-kc.html.")
 @click.option("--force", is_flag=True, help="Overwrite the page.")
 @click.option("--quiet", is_flag=True, help="Print only faults.")
 @json_option
 def command(machine: str, overrides: dict[str, str], chassis: str | None, hold: tuple[str, ...] | None, travel: float, load: float,
-            braking: tuple[str, ...] | None, out: str | None, force: bool, quiet: bool, as_json: bool) -> None:  # fmt: skip
+            braking: tuple[float, float, float] | None, out: str | None, force: bool, quiet: bool, as_json: bool) -> None:  # fmt: skip
     """Move the wheels of MACHINE on a rig: bump, roll, longitudinal, lateral and aligning loads. Gives toe, camber, wheel rate, motion
     ratio, roll centre, anti-dive and compliance.
 
@@ -60,9 +55,7 @@ def command(machine: str, overrides: dict[str, str], chassis: str | None, hold: 
     loaded = nivel.api.load(machine, overrides)
     page, kc = Path(out or f"{loaded.name}-kc.html"), nivel.report.kc_page
     nivel.files.target.check_target(page, "page", force=force, sources=[Path(machine)])
-    vehicle = None if braking is None else _vehicle(braking)
-    found: dict[str, Curves] = {}
-    rig, wheels = on_rig(loaded, chassis, hold or ())
+    (rig, wheels), found, told = on_rig(loaded, chassis, hold or ()), dict[str, Any](), dict[str, Any]()
     try:
         with progress_listener(quiet) as listener:
             for case, (heights, _) in CASES.items():
@@ -70,26 +63,10 @@ def command(machine: str, overrides: dict[str, str], chassis: str | None, hold: 
                 found[case] = measured(rig, wheels, case, size, listener)
     finally:  # what was measured before a case that fails is kept
         if "bump" in found:
-            nivel.files.target.write_file(page, "page", kc.kc_html(loaded.name, wheels, found, vehicle))
-    numbers = kc.numbers_of(wheels, found, vehicle)
-    trust = {case: each.trust for case, each in found.items()}
-    if as_json:
-        told = {owner: {what: value for what, (value, _) in each.items()} for owner, each in numbers.items()}
-        click.echo(json.dumps(told | {"trust": trust}, indent=2))
-    elif not quiet:
-        for owner, each in numbers.items():
-            click.echo("\n".join([owner, *(f"  {what}: {value:.5g} {unit}" for what, (value, unit) in each.items())]))
-        click.echo(f"trust: {', '.join(f'{case} {verdict}' for case, verdict in trust.items())}\npage: {page}")
-
-
-def _vehicle(texts: tuple[str, ...]) -> tuple[float, ...]:
-    try:
-        numbers = tuple(map(float, texts))
-    except ValueError:
-        numbers = ()
-    if len(numbers) != 3 or not all(0.0 < each < math.inf for each in numbers):
-        raise ModelError(Fault.at("kc.braking", "three positive numbers were expected, `--braking 2.7,0.55,0.65`"))
-    return numbers
+            trust = ", ".join(f"{case} {each.trust}" for case, each in found.items())
+            told = {owner: (each, trust) for owner, each in kc.numbers_of(wheels, found, braking).items()}
+            nivel.files.target.write_file(page, "page", kc.kc_html(loaded.name, wheels, found, told))
+    tell(told, page, quiet=quiet, as_json=as_json)
 
 
 def on_rig(machine: Machine, chassis: str | None = None, hold: tuple[str, ...] = ()) -> tuple[Machine, list[Wheel]]:

@@ -136,13 +136,8 @@ def slope_numbers(m: Manoeuvre) -> Numbers:
 
 def handling_html(machine: str, found: Mapping[str, tuple[Manoeuvre, Numbers, str]]) -> str:
     """The page as text: numbers of each manoeuvre with the verdict on its run, understeer plot, g-g diagram, histories."""
-    plots, said = [], []
-    for name, (m, numbers, trust) in found.items():
-        said.append(
-            f"{name}: "
-            + "; ".join(f"{what} {value:.4g} {unit}" for what, (value, unit) in numbers.items())
-            + f" (trust: {trust})"
-        )
+    plots, told = [], {name: (numbers, trust) for name, (_, numbers, trust) in found.items()}
+    for name, (m, _, _) in found.items():
         if name == "circle":
             angles = {"steering": m.steering, "side slip": np.arctan2(m.vy, m.vx), "roll": m.roll}
             lines = [Line(of, m.vx * m.yaw_rate / G, np.degrees(angle)) for of, angle in angles.items()]
@@ -156,6 +151,13 @@ def handling_html(machine: str, found: Mapping[str, tuple[Manoeuvre, Numbers, st
         plots.append((f"{name}: way", path_drawing(m.x, m.y, "x [m]", "y [m]")))
     all_of = [Line(name, m.ay / G, m.ax / G) for name, (m, _, _) in found.items()]
     plots.insert(0, ("g-g diagram", curves(all_of, "lateral acceleration [g]", "longitudinal acceleration [g]")))
-    return page(
-        "plots.html.j2", ("reduction.css", "plots.css"), name=f"{machine}: handling", said=said, plots=plots, note=NOTE
-    )
+    return plots_page(f"{machine}: handling", told, plots, NOTE)
+
+
+def plots_page(name: str, told: Mapping[str, tuple[Numbers, str]], plots: list[tuple[str, str]], note: str) -> str:
+    """A page of numbers, each row with its verdict, and of plots with their titles."""
+    said = [
+        f"{of}: {'; '.join(f'{what} {value:.4g} {unit}' for what, (value, unit) in numbers.items())} (trust: {trust})"
+        for of, (numbers, trust) in told.items()
+    ]
+    return page("plots.html.j2", ("reduction.css", "plots.css"), name=name, said=said, plots=plots, note=note)

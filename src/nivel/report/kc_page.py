@@ -16,8 +16,7 @@ from numpy.polynomial.chebyshev import chebder, chebfit, chebval
 from nivel.lazy import dataclass
 from nivel.looks.poses import rotation
 from nivel.machine.core.vectors import Array
-from nivel.report.handling_page import Numbers
-from nivel.report.page import page
+from nivel.report.handling_page import Numbers, plots_page
 from nivel.report.plots import Line, curves
 from nivel.results.result import Result
 
@@ -60,12 +59,11 @@ def slopes(values: Array) -> Array:
 
 @dataclass(frozen=True)
 class Curves:
-    """What wheels do in a case, by name and at ENDS: toe, camber [rad], centre (n, 3) [m], slope of the contact by the share of the case
+    """What wheels do in a case, by name and at ENDS: toe and camber [°], centre (n, 3) [m], slope of the contact by the share of the case
     (n, 3) [m], vertical load of the rig [N]; lengths of springs [m]. size : of the case [m, N or N m]."""
 
     size: float
-    toe: dict[str, Array]
-    camber: dict[str, Array]
+    angles: dict[str, dict[str, Array]]
     centre: dict[str, Array]
     way: dict[str, Array]
     load: dict[str, Array]
@@ -78,15 +76,17 @@ class Curves:
         kept = np.searchsorted(run.time, np.arange(RISE, RISE + NODES + 1) - LEVEL)
         lengths = [each for each in run.names if each.startswith("force.") and each.endswith(".length")]
         springs = {each.split(".")[1]: run.array(each)[kept] for each in lengths}
-        out = cls(size, {}, {}, {}, {}, {}, springs, run.trust.verdict)
-        for name, body, point, axle, _, radius in (vars(each).values() for each in wheels):
-            b = run.coordinates["body"].index(body)
+        out = cls(size, {"toe": {}, "camber": {}}, {}, {}, {}, springs, run.trust.verdict)
+        for each in wheels:
+            b, name = run.coordinates["body"].index(each.body), each.name
             A = np.array([rotation(q) for q in run.array("orientation")[kept, b]])
-            out.centre[name], outward = run.array("position")[kept, b] + A @ point, A @ axle
-            out.toe[name] = np.arctan2(outward[:, 0], np.abs(outward[:, 1]))
-            out.camber[name] = -np.arcsin(outward[:, 2])
+            out.centre[name], (x, y, z) = run.array("position")[kept, b] + A @ each.point, (A @ each.axle).T
+            out.angles["toe"][name], out.angles["camber"][name] = (
+                DEGREE * np.arctan2(x, np.abs(y)),
+                -DEGREE * np.arcsin(z),
+            )
             turn = np.einsum("nij,nkj->nik", slopes(A), A)  # dA Aᵀ, the matrix of the turn
-            out.way[name] = slopes(out.centre[name]) - radius * turn[:, :, 2]
+            out.way[name] = slopes(out.centre[name]) - each.radius * turn[:, :, 2]
             out.load[name] = run.array(f"driver.kc_{name}.effort")[kept]
         return out
 
@@ -119,28 +119,20 @@ def roll_centre(of: Curves, left: Wheel, right: Wheel | None) -> Array:
 
 
 def numbers_of(
-    wheels: list[Wheel], found: Mapping[str, Curves], vehicle: tuple[float, ...] | None = None
+    wheels: list[Wheel], found: Mapping[str, Curves], vehicle: tuple[float, float, float] | None = None
 ) -> dict[str, Numbers]:
-    """Of each wheel and axle, at the drawn height. vehicle : wheelbase, height of the centre of mass [m], share of the front brakes."""
+    """Of each wheel and axle, at the drawn height. vehicle : wheelbase, height of its centre of mass [m], share of the front brakes."""
     bump, roll, out = found["bump"], found.get("roll"), dict[str, Numbers]()
     front = max(float(each[MIDDLE, 0]) for each in bump.centre.values())
     for wheel in wheels:
-        name, way = wheel.name, bump.way[wheel.name][MIDDLE]
-        along, across, _ = way / way[2]
-        toe, camber, load, centre = (
-            slopes(each[name])[MIDDLE] / way[2] for each in (bump.toe, bump.camber, bump.load, bump.centre)
-        )
-        of: Numbers = {
-            "load": (bump.load[name][MIDDLE], "N"),
-            "toe": (DEGREE * bump.toe[name][MIDDLE], "°"),
-            "camber": (DEGREE * bump.camber[name][MIDDLE], "°"),
-            "toe by bump": (DEGREE * toe, "°/m"),
-            "camber by bump": (DEGREE * camber, "°/m"),
-            "contact outwards by bump": (1e3 * wheel.side * across, "mm/m"),
-            "contact to the front by bump": (1e3 * along, "mm/m"),
-            "centre to the front by bump": (1e3 * centre[0], "mm/m"),
-            "wheel rate": (1e-3 * load, "N/mm"),
-        }
+        name, rise = wheel.name, bump.way[wheel.name][MIDDLE, 2]
+        along, across, _ = bump.way[name][MIDDLE] / rise
+        of: Numbers = {"load": (bump.load[name][MIDDLE], "N")}
+        of |= {what: (angle[name][MIDDLE], "°") for what, angle in bump.angles.items()}
+        of |= {f"{what} by bump": (slopes(angle[name])[MIDDLE] / rise, "°/m") for what, angle in bump.angles.items()}
+        of["contact outwards by bump"] = 1e3 * wheel.side * across, "mm/m"
+        of["contact to the front by bump"] = 1e3 * along, "mm/m"
+        of["wheel rate"] = 1e-3 * slopes(bump.load[name])[MIDDLE] / rise, "N/mm"
         if vehicle is not None:
             wheelbase, height, share = vehicle
             ahead = bump.centre[name][MIDDLE, 0] > front - 0.5 * wheelbase
@@ -148,20 +140,16 @@ def numbers_of(
             of["anti-dive" if ahead else "anti-lift"] = 100.0 * part * along * wheelbase / height, "%"
         for spring, against in roll.springs.items() if roll is not None else ():
             # half of what all wheels do together and what they do against each other is what this one does alone
-            both = slopes(bump.springs[spring]) / bump.size + wheel.side * slopes(against) / bump.size
-            ratio = 0.5 * both[MIDDLE]
+            ratio = 0.5 * (slopes(bump.springs[spring]) + wheel.side * slopes(against))[MIDDLE] / bump.size
             if abs(ratio) > LEVEL:
                 of[f"motion ratio of {spring}"] = ratio, "m/m"
         for case, each in found.items():
             if case not in ("bump", "roll"):
-                unit, scale = "kN m" if case == "aligning" else "kN", 1e3 / each.size
-                toe, camber, way = (scale * slopes(what[name])[MIDDLE] for what in (each.toe, each.camber, each.centre))
-                of |= {
-                    f"toe by {case} load": (DEGREE * toe, f"°/{unit}"),
-                    f"camber by {case} load": (DEGREE * camber, f"°/{unit}"),
-                    f"centre to the front by {case} load": (1e3 * way[0], f"mm/{unit}"),
-                    f"centre to the left by {case} load": (1e3 * way[1], f"mm/{unit}"),
-                }
+                by, unit, scale = f"by {case} load", "kN m" if case == "aligning" else "kN", 1e3 / each.size
+                x, y, _ = 1e3 * scale * slopes(each.centre[name])[MIDDLE]
+                angles = {what: scale * slopes(angle[name])[MIDDLE] for what, angle in each.angles.items()}
+                of |= {f"{what} {by}": (angle, f"°/{unit}") for what, angle in angles.items()}
+                of |= {f"centre to the front {by}": (x, f"mm/{unit}"), f"centre to the left {by}": (y, f"mm/{unit}")}
         out[name] = of
     for left, right in axles(wheels, bump):
         of = {"roll centre above the ground": (roll_centre(bump, left, right)[MIDDLE, 1], "m")}
@@ -175,30 +163,26 @@ def numbers_of(
     return {owner: {what: (float(value), unit) for what, (value, unit) in of.items()} for owner, of in out.items()}
 
 
-def kc_html(machine: str, wheels: list[Wheel], found: Mapping[str, Curves], vehicle: tuple[float, ...] | None) -> str:
-    """The page as text: numbers, curves over bump and roll, and over the loads."""
+def kc_html(
+    machine: str, wheels: list[Wheel], found: Mapping[str, Curves], told: Mapping[str, tuple[Numbers, str]]
+) -> str:
+    """The page as text: numbers as they are `told`, curves over bump and roll, and over the loads."""
     bump, plots = found["bump"], list[tuple[str, str]]()
 
     def plot(case: str, title: str, unit: str, of: Mapping[str, Array]) -> None:
         x = (1e3 if case in ("bump", "roll") else 1e-3) * found[case].size * FINE
         side = {each.name: each.side if case == "roll" else 1.0 for each in wheels}
         fine = {name: np.asarray(chebval(FINE, chebfit(ENDS, y, NODES)), dtype=float) for name, y in of.items()}
-        lines = [Line(name, side.get(name, 1.0) * x, y) for name, y in fine.items()]
+        lines = [Line(name, side[name] * x, y) for name, y in fine.items()]
         plots.append((f"{title} by {case}", curves(lines, X_TITLES[case], f"{title} [{unit}]")))
 
     for case, each in found.items():
-        plot(case, "toe", "°", {name: DEGREE * toe for name, toe in each.toe.items()})
-        plot(case, "camber", "°", {name: DEGREE * camber for name, camber in each.camber.items()})
+        for title, angle in each.angles.items():
+            plot(case, title, "°", angle)
         if case in ("bump", "roll"):
             plot(case, "vertical load", "kN", {name: 1e-3 * load for name, load in each.load.items()})
     place = {each.name: 1e3 * (bump.centre[each.name] - bump.centre[each.name][MIDDLE]) for each in wheels}
     plot("bump", "centre to the front", "mm", {name: each[:, 0] for name, each in place.items()})
     plot("bump", "centre outwards", "mm", {each.name: each.side * place[each.name][:, 1] for each in wheels})
     plot("bump", "roll centre", "mm", {a.name: 1e3 * roll_centre(bump, a, b)[:, 1] for a, b in axles(wheels, bump)})
-    said = [
-        f"{owner}: " + "; ".join(f"{what} {value:.4g} {unit}" for what, (value, unit) in of.items())
-        for owner, of in numbers_of(wheels, found, vehicle).items()
-    ]
-    said.append("trust: " + "; ".join(f"{case} {each.trust}" for case, each in found.items()))
-    styles = ("reduction.css", "plots.css")
-    return page("plots.html.j2", styles, name=f"{machine}: K&C", said=said, plots=plots, note=NOTE)
+    return plots_page(f"{machine}: K&C", told, plots, NOTE)

@@ -176,3 +176,30 @@ def test_outputs_of_studies_do_not_depend_on_frames():
     size = np.hypot(0.1, 3.0 / (50.0 * np.pi))
     for name, wanted in (("x", size), ("f", size * (50.0 * np.pi) ** 2), ("r", size / np.sqrt(2.0))):
         assert found[name].value == pytest.approx(wanted, rel=2e-3 if name == "f" else 2e-4)
+
+
+STRUCK = """
+format: 1
+gravity: [0, 0, 0]
+bodies: {a: {mass: 1, inertia: [1, 1, 1], velocity: [2, 0, 0]}}
+joints: {r: {type: translational, bodies: [ground, a], point: [0, 0, 0], axis: [1, 0, 0]}}
+forces: {wall: {type: stop, coordinate: r, upper: 0.5, stiffness: 1e6, restitution: 1}}
+simulation: {duration: 0.6, output_interval: 50 ms}
+"""
+
+
+def test_numbers_over_time_of_a_short_pulse_are_right_or_open():
+    """A blow of π ms has the impulse 2 m v, the work 0 and the mean square (v √(k m))²/2 over its part of the time."""
+    right = {
+        "integral": (-4.0, "magnitude"),
+        "mean": (-4.0 / 0.6, "magnitude"),
+        "rms": (2000.0 * np.sqrt(np.pi / 1200.0), "magnitude"),
+    }
+    outputs = {kind: Reduced(type=kind, of=f"force.wall.{of}") for kind, (_, of) in right.items()}
+    outputs["work"], right["work"] = Reduced(type="integral", of="force.wall.power"), (0.0, "power")
+    row = run_variant(Task(nivel.Machine.from_record(parse_machine(STRUCK)), outputs=outputs), {"bodies.a.mass": 1.0})
+    sizes = {"integral": 4.0, "mean": 4.0 / 0.6, "rms": right["rms"][0], "work": 4.0}
+    for name, (wanted, _) in right.items():
+        found = row.outputs[name]
+        assert abs(found.value - wanted) < max(found.doubt, 1e-3 * sizes[name])
+        assert found.doubt > 0.0

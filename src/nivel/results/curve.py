@@ -403,6 +403,12 @@ def rms(of: Curve) -> Number:
     return found._replace(value=value, doubt=np.sqrt((found.value + found.doubt) / span) - value)
 
 
+def mean_of_magnitude(of: Curve) -> Number:
+    """The integral of the magnitude over the time, as a share of that."""
+    found, span = integral_of_magnitude(of), _span(of) or 1.0
+    return found._replace(value=found.value / span, doubt=found.doubt / span)
+
+
 def _span(of: Curve) -> float:
     return float(of.time[-1] - of.time[0]) if len(of.time) > 1 else 0.0
 
@@ -414,4 +420,10 @@ REDUCTIONS: Final[Mapping[str, Callable[[Curve], Number]]] = {
     "mean": mean,
     "rms": rms,
     "integral": integral,
+}
+# what a number over time is beside: a pulse of short duration makes a small one beside the range of its curve
+SIZES: Final[Mapping[str, Callable[[Curve], Number]]] = {
+    "mean": mean_of_magnitude,
+    "rms": rms,
+    "integral": integral_of_magnitude,
 }

@@ -26,7 +26,7 @@ from nivel.machine.study.parameter import (
 from nivel.model import Model
 from nivel.results.analyses.efforts import Efforts
 from nivel.results.analyses.linear_model import LinearModel
-from nivel.results.curve import REDUCTIONS, Curve, curve, curve_of
+from nivel.results.curve import REDUCTIONS, ROUNDED, SIZES, TOLD, Curve, curve, curve_of
 from nivel.results.result import Result
 from nivel.results.trust import amount
 from nivel.words.wording import unknown_word
@@ -39,7 +39,7 @@ OF_LOOP = {"gain_margin": "1", "phase_margin": "rad", "delay_margin": "s"}
 
 class Number(NamedTuple):
     """An output of a variant, and its SI unit. doubt : what it may be off by, as it was made from numbers at frames; 0 where that is little
-    beside the range of these."""
+    beside the range of these, and beside the magnitude over time of what is summed."""
 
     value: float
     units: str
@@ -104,8 +104,11 @@ def _number(found: Found, output: Output) -> Number:
     if not len(part.time):
         return Number(np.nan, _integrated(units) if output.type == "integral" else units)
     reduced = REDUCTIONS[output.type](part)
-    span = part.time[-1] - part.time[0] if output.type == "integral" else 1.0
+    span = float(part.time[-1] - part.time[0]) if output.type == "integral" else 1.0
     is_told = history.is_told(reduced.doubt / (span or 1.0))[0]
+    if output.type in SIZES and not is_told:
+        least = ROUNDED * float(np.max(np.abs(part.value))) * (span or 1.0)
+        is_told = reduced.doubt[0] > max(TOLD * float(SIZES[output.type](part).value[0]), least)
     value, doubt = float(reduced.value[0]), float(reduced.doubt[0]) if is_told else 0.0
     return Number(value, _integrated(units) if output.type == "integral" else units, doubt)
 

@@ -15,17 +15,18 @@ import numpy as np
 from pydantic import BeforeValidator
 
 from nivel.elements.kind import Kind
+from nivel.lazy import scipy
 from nivel.machine.control.block import Block, Input, Matrix, NotNegativeTime, Number, PositiveNumber
 from nivel.machine.control.part import Part
 from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.varying_value import Table
 from nivel.machine.units.formula import formula, linear
-from nivel.machine.units.functions import pieces
 from nivel.machine.units.quantity import Duration
 
 FOUND = 0.2  # τ [s]
 FEWEST = 3  # points of a course
+PARTS, FINER = 8, 16  # of a course between two points, and of these to sum its length
 ALONG = ("x", "y", "heading", "wheelbase")  # what a course needs
 
 
@@ -67,10 +68,8 @@ class VehicleDriver(Block):
     def _along(self) -> Iterator[Part]:
         for name in ("x", "y", "heading"):
             yield self.present(f"own_{name}", getattr(self, name), key=name)
-        points = np.array(self.course)
-        s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-        slopes = [_slopes(s, each) for each in points.T]
-        courses = {"place_x": points[:, 0], "place_y": points[:, 1], "slope_x": slopes[0], "slope_y": slopes[1]}
+        s, points, slopes = _course(np.array(self.course))
+        courses = {"place_x": points[:, 0], "place_y": points[:, 1], "slope_x": slopes[:, 0], "slope_y": slopes[:, 1]}
         yield self.present("ahead", linear((1.0, self.path("station")), (self.preview, self.path("own_speed"))))
         for name, values in courses.items():
             yield self.present(name, Table(tuple(s), tuple(values), "cubic", self.path("station")))
@@ -126,11 +125,18 @@ def _only(names: dict[str, str], *wanted: str) -> dict[str, str]:
     return {name: names[name] for name in wanted}
 
 
-def _slopes(s: np.ndarray, values: np.ndarray) -> list[float]:
-    """Of the cubic spline through `values` at `s`, there."""
-    own = pieces("cubic", tuple(s), tuple(values))
-    h = s[-1] - s[-2]
-    return [*own[:, 1], float(own[-1, 1] + 2.0 * own[-1, 2] * h + 3.0 * own[-1, 3] * h * h)]
+def _course(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Lengths (m,) along the cubic spline through points (n, 2), places and directions (m, 2), in PARTS from point to point.
+
+    Directions are no spline, and the length is no polynomial of that of the polygon: so they stand at more places than the points.
+    """
+    chord = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+    spline = scipy.interpolate.CubicSpline(chord, points, bc_type="natural")
+    at = np.interp(np.arange((len(chord) - 1) * PARTS * FINER + 1) / (PARTS * FINER), np.arange(len(chord)), chord)
+    speed = np.hypot(*spline(at, 1).T)
+    s = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(at))])
+    kept = at[::FINER]
+    return s[::FINER], spline(kept), spline(kept, 1) / speed[::FINER, None]
 
 
 KINDS = (Kind(VehicleDriver),)

@@ -47,6 +47,7 @@ from nivel.elements.forces.shafts import BeltDrive as BeltDrive
 from nivel.elements.forces.springs import JointSpringDamper as JointSpringDamper
 from nivel.elements.forces.springs import TorsionalSpringDamper as TorsionalSpringDamper
 from nivel.elements.forces.terramechanics import Blade as Blade
+from nivel.elements.forces.terramechanics import Track as Track
 from nivel.elements.joints.couplings import Belt as Belt
 from nivel.elements.joints.couplings import Coupling as Coupling
 from nivel.elements.joints.couplings import FunctionCoupling as FunctionCoupling

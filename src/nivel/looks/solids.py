@@ -243,7 +243,7 @@ def attached(scene: dict[str, Any], body: str) -> list[list[float]]:
     return [
         point
         for force in scene.get("forces", [])
-        if force["type"] != "contact"
+        if force["type"] not in ("contact", "track")
         for name, point in zip(force["bodies"], force["points"], strict=True)
         if name == body
     ]

@@ -26,6 +26,8 @@ a body (`ground` among them) is in that body's frame, which `position` and `orie
 
 Of the forces those are here that have two ends: spring-dampers, torsional ones, pair-forces, bushings, contacts, and ropes, which
 have a point for every marker; hydraulic cylinders too, as ``cylinder``, with ``sizes``: radii of barrel and rod, length of the barrel.
+Tracks have points for both ends of the belt, on the frame, and the sprocket; ``axis`` away from the ground, in the frame; ``sizes``:
+radius of the sprocket, width of the belt, thickness of its shoes.
 A torsional spring acts about ``axis``, in the first body. A contact is between the centres of two spheres, or between the centre of a
 shape and a point of a plane; then ``axis`` is the plane's normal, in the second body, outwards.
 
@@ -58,6 +60,7 @@ from nivel.known import (
     SoilUnit,
     TelescopicCylinder,
     TorsionalSpringDamper,
+    Track,
 )
 from nivel.lazy import nivel
 from nivel.machine.bodies.body import Body
@@ -73,6 +76,7 @@ from nivel.system.joint_frames import as_placed, axes_as_placed, marker_place, s
 from nivel.system.system import System
 
 WALL: Final = 0.2  # of a cylinder, of its inner radius
+SHOE: Final = 0.15  # thickness of the shoes of a track, of the radius of its sprocket
 BARREL: Final = 0.92  # length of a barrel, of that of the retracted cylinder
 
 
@@ -250,6 +254,11 @@ def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
                 out["wheels"] = _wheels(machine, force, force.radii)
             case Contact() if force.plane is not None and force.heights is None:
                 out["axis"] = markers.frame[second][:, 2].tolist()
+            case Track():
+                out |= {
+                    "axis": markers.frame[first][:, 2].tolist(),
+                    "sizes": [force.radius, force.width, SHOE * force.radius],
+                }
         yield out
     for cylinder in machine.hydraulics:
         kinds = nivel.elements.circuits.actuators
@@ -300,6 +309,8 @@ def _ends(builder: SystemBuilder, force: Force) -> tuple[int, ...] | None:
             return builder.ends(force.ends)
         case Rope():
             return tuple(builder.end(end) for end in force.ends)
+        case Track():
+            return tuple(builder.end(end) for end in (*force.contact, force.sprocket))
         case Contact(body=str(body), plane=plane) if plane is not None:
             return _centre(builder, body), builder.end(plane)
         case Contact(bodies=(first, second)):

@@ -102,8 +102,8 @@ def _look(force: dict[str, Any], record: dict[str, Any]) -> ForceLook:
             return "coil"
         case "pair-force" | "cylinder":
             return "cylinder"
-        case "rope":
-            return "rope"
+        case "rope" | "track" as same:
+            return same
         case "bushing" | "three-axis-spring":
             return "bushing"
         case "contact":

@@ -26,6 +26,7 @@ ForceLook = Literal[
     "ring",
     "dot",
     "rope",
+    "track",
 ]
 
 PROTOCOL: Final = 1  # version of all that stands here
@@ -180,7 +181,8 @@ class Force:
     holds it, a `dot` is where something acts on one body, a `rope` goes from point to point, of which it may have more than two,
     or around wheels as `winding` says.
 
-    sizes : of a hydraulic cylinder: radii of its barrel and rod, length of its barrel [m].
+    sizes : of a hydraulic cylinder: radii of its barrel and rod, length of its barrel [m]. Of a `track`, whose points are both ends of
+    its belt and its sprocket, and whose axis points away from the ground: radius of the sprocket, width and thickness of the shoes.
     """
 
     name: str

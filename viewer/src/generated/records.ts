@@ -93,14 +93,14 @@ export interface Winding {
   fixed: [[number, number, number], [number, number, number]];
 }
 
-/** A force element, or a driver. points : of the two ends, or the one where it acts, or of the joint that it works on; none where that is not known. axis : of a coil or of what works on a joint, or normal of a contact's plane; in the first body's frame, a normal in the second's. look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring` holds it, a `dot` is where something acts on one body, a `rope` goes from point to point, of which it may have more than two, or around wheels as `winding` says. sizes : of a hydraulic cylinder: radii of its barrel and rod, length of its barrel [m]. */
+/** A force element, or a driver. points : of the two ends, or the one where it acts, or of the joint that it works on; none where that is not known. axis : of a coil or of what works on a joint, or normal of a contact's plane; in the first body's frame, a normal in the second's. look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring` holds it, a `dot` is where something acts on one body, a `rope` goes from point to point, of which it may have more than two, or around wheels as `winding` says. sizes : of a hydraulic cylinder: radii of its barrel and rod, length of its barrel [m]. Of a `track`, whose points are both ends of its belt and its sprocket, and whose axis points away from the ground: radius of the sprocket, width and thickness of the shoes. */
 export interface Force {
   name: string;
   kind: string;
   bodies: number[];
   points: [number, number, number][];
   axis: [number, number, number] | null;
-  look: "nothing" | "spring" | "damper" | "spring-damper" | "cylinder" | "coil" | "bushing" | "plane" | "turn" | "slide" | "ring" | "dot" | "rope";
+  look: "nothing" | "spring" | "damper" | "spring-damper" | "cylinder" | "coil" | "bushing" | "plane" | "turn" | "slide" | "ring" | "dot" | "rope" | "track";
   facts: [string, string][];
   sizes: number[];
   winding: Winding | null;

@@ -1,4 +1,4 @@
-// What stretches between two bodies: springs, dampers, cylinders, rods of massless links; and planes of contacts.
+// What stretches between two bodies: springs, dampers, cylinders, rods of massless links; belts of tracks, and planes of contacts.
 import * as THREE from "three";
 import type { Force, Joint, Winding } from "../generated/records";
 import type { Motion } from "../motion";
@@ -6,6 +6,7 @@ import { standing } from "./acting";
 import type { Actor, Picked } from "./actor";
 import { noPieces, type Piece } from "./batch";
 import type { Tone } from "./look";
+import { tracked } from "./tracked";
 import { Wound } from "./wound";
 
 const WIRE = 0.0042; // radii, of the size near the element
@@ -40,6 +41,7 @@ export function stretching(actor: Actor, motion: Motion | null): Stretched {
     if (force.look === "plane") out.moving.push(plane(actor, force));
     else if (force.winding) wound(actor, force, force.winding, motion, out);
     else if (force.look === "rope") rope(actor, force, out);
+    else if (force.look === "track") tracked(actor, force, out);
     else if (BETWEEN.includes(force.look)) between(actor, force, out);
     else standing(actor, force, "force", out.pieces);
   }

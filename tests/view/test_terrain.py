@@ -5,11 +5,13 @@ import sys
 import numpy as np
 import pytest
 
+import synthetic_run
 from nivel.errors import ModelError
 from nivel.integrate.loop.paced import TICKS
 from nivel.live.preparation import live_plan, prepared_run
 from nivel.live.shared import bytes_of, live_in, soils_in
-from nivel.results.terrain import STEPS, TerrainHistory, Tracker, terrains
+from nivel.results import Memory
+from nivel.results.terrain import STEPS, TerrainHistory, Tracker
 from nivel.view.playback import ALONE, playback
 from packages import from_bytes, unpacked
 from simulating import G, machine
@@ -39,7 +41,7 @@ def sledge(**simulation):
 
 def test_heights_of_a_result_are_those_of_the_cells_at_all_its_times():
     result = sledge().simulate(verify=False)
-    (terrain,) = terrains(result.attributes).values()
+    (terrain,) = result.terrains.values()
     sim = sledge().start()
     (soil,) = sim._system.units
     start = soil.record.h.copy()
@@ -52,9 +54,6 @@ def test_heights_of_a_result_are_those_of_the_cells_at_all_its_times():
             np.abs(terrain.at(time).T - soil.record.h).max() <= 0.5 * terrain.step + 1e-6
         )  # heights at the start have 32 bits
         assert carried == pytest.approx(soil.record.volume)
-        assert np.array_equal(result.ground(time), result.ground(time, "dig"))
-    with pytest.raises(ModelError, match="under: `dig`"):
-        result.ground(0.0, "digg")
     # what has left the cells is carried: each of the nodes that moved is known to half a step
     moved = terrain.at(9.0) - terrain.at(-1.0)
     doubt = 0.5 * terrain.step * np.count_nonzero(soil.record.h != start) * 0.05**2
@@ -116,7 +115,7 @@ def test_a_page_has_the_terrain_where_it_stands_in_space():
     assert place + heights[j, i] * normal == pytest.approx(wanted, abs=1e-6)
     (load,) = ground["loads"]
     assert load == {"slot": 0, "body": 0, "point": [-0.4, 0.0, 0.0], "half": [0.0, 0.4, 0.0]}
-    (terrain,) = terrains(result.attributes).values()
+    (terrain,) = result.terrains.values()
     course = {name: unpacked(each, arrays) for name, each in ground["course"].items()}
     steps = np.bincount(
         np.cumsum(course["nodes"].astype(np.int32)), course["moves"].astype(np.uint16).view(np.int16), heights.size
@@ -136,10 +135,18 @@ def test_a_live_machine_digs_in_the_memory_that_its_pages_see():
     drive = run.begin(live)
     live.control[TICKS] = 1200
     drive()
-    (terrain,) = terrains(sledge().simulate(verify=False).attributes).values()
+    (terrain,) = sledge().simulate(verify=False).terrains.values()
     assert carried[0] == pytest.approx(terrain.carried[-1, 0])
     assert np.abs(heights.T - terrain.at(9.0)).max() <= 0.5 * terrain.step + 1e-6
     nodes, moves = Tracker(grounds[0][0], grounds[0][2]).moves(heights)
     shown = terrain.start.ravel().copy()
     shown[nodes] += moves * terrain.step
     assert shown == pytest.approx(terrain.at(9.0).ravel())
+
+
+@pytest.mark.parametrize("text", ["{", '{"soil of dig": "AAAA"}', '{"soil of dig": 3}', '["soil"]'])
+def test_a_damaged_terrain_is_told(text):
+    memory = Memory()
+    memory.begin(synthetic_run.header())
+    with pytest.raises(ModelError, match="`terrain` cannot be read"):
+        _ = memory.close({"outcome": "done", "terrain": text}).terrains

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from browsing import drawn, watched
-from nivel.results.terrain import terrains
 from nivel.view.page import write_scene
 from test_terrain import sledge
 
@@ -16,7 +15,7 @@ HEIGHTS = """() => {
 
 def test_ruts_and_loads_of_all_moments_are_shown(browser, tmp_path):
     result = sledge().simulate(verify=False)
-    (terrain,) = terrains(result.attributes).values()
+    (terrain,) = result.terrains.values()
     write_scene([result], tmp_path / "scene.html")
     with watched(browser) as seen:
         page = seen.open((tmp_path / "scene.html").as_uri())

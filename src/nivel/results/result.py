@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.known import TerrainHistory
 from nivel.lazy import nivel, provided, xarray
 from nivel.results.estimate import ATTRIBUTE, Estimate
 from nivel.results.frames.contents import Contents, Selection, own_units, selections, unknown_name
@@ -118,9 +119,11 @@ class Result(Tabulated):
         """Strains, forces and moments along a beam at all times; see `nivel.results.beams`."""
         return nivel.results.beams.beam_sections(self, beam)
 
-    def ground(self, time: float, under: str | None = None) -> NDArray[np.float64]:
-        """Heights [m] of soil at a time [s], rows along y and columns along x of its plane. under : of several the first force on it."""
-        return nivel.results.terrain.ground(self.attributes, time, under)
+    @cached_property
+    def terrains(self) -> dict[str, TerrainHistory]:
+        """Soils by name; `at(time)` of one is its heights [m] at a time [s], rows along y and columns along x of its plane."""
+        with understood(self._contents, "terrain"):
+            return nivel.results.terrain.terrains(self.attributes)
 
     def _json(self, attribute: str) -> dict[str, Any]:
         return json.loads(str(self.attributes.get(attribute, "{}")))

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import base64
 import json
-import zlib
 from collections.abc import Iterable, Mapping
+from io import BytesIO
 from typing import Any, Final
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.errors import ModelError
 from nivel.integrate.loop.run import HORIZON, TIME, Run
 from nivel.known import SoilUnit
 from nivel.lazy import dataclass, replace
@@ -25,7 +25,6 @@ STEPS: Final = 128  # of a height, in the side of a cell
 MOST: Final = 32767  # of these, up and down
 INTERVAL: Final = 1.0 / 60.0  # [s] between two moments, at least
 EARLY: Final = 1e-12  # share of the time by which a moment may be before it is due
-KINDS: Final = {"start": "<f4", "time": "<f8", "ends": "<u4", "nodes": "<i4", "moves": "<i2", "carried": "<f4"}
 
 
 class Tracker:
@@ -82,20 +81,22 @@ class TerrainLog:
 
     @property
     def attribute(self) -> str:
-        """All that was kept, as a result has it; empty without soil."""
+        """All that was kept, as a result has it: by name of the soil arrays of `TerrainHistory` in NumPy's form."""
         out = {}
         for kept, (soil, start, tracker) in zip(self._kept, self._soils, strict=True):
             nodes, moves, carried = ([each[k] for each in kept] for k in range(3))
-            ends, differences = np.cumsum([*map(len, nodes)]), np.diff(np.concatenate(nodes), prepend=0)
-            arrays = start.T, np.array(self._time), ends, differences, np.concatenate(moves), np.array(carried)
-            out[soil.name] = {"step": tracker.step, **dict(zip(KINDS, map(_text, KINDS, arrays), strict=True))}
-        return json.dumps(out) if out else ""
-
-
-def _text(name: str, array: NDArray[Any]) -> list[Any]:
-    """Shape and content of an array."""
-    content = np.ascontiguousarray(array, KINDS[name]).tobytes()
-    return [array.shape, base64.b64encode(zlib.compress(content)).decode()]
+            history = TerrainHistory(
+                step=np.array(tracker.step),
+                start=start.T.astype(np.float32),
+                time=np.array(self._time),
+                ends=np.cumsum([*map(len, nodes)]),
+                nodes=np.diff(np.concatenate(nodes), prepend=0).astype(np.int32),
+                moves=np.concatenate(moves),
+                carried=np.array(carried, dtype=np.float32),
+            )
+            np.savez_compressed(content := BytesIO(), **vars(history))
+            out[soil.name] = base64.b64encode(content.getvalue()).decode()
+        return json.dumps(out)
 
 
 @dataclass(frozen=True)
@@ -104,7 +105,7 @@ class TerrainHistory:
     moves up to each time. nodes (n,) : of `start` in rows, as what is added to the one before. moves (n,) : by so many steps. carried
     (k, forces) [m³] : by forces on the soil."""
 
-    step: float
+    step: NDArray[Any]
     start: NDArray[Any]
     time: NDArray[Any]
     ends: NDArray[Any]
@@ -133,20 +134,13 @@ class TerrainHistory:
 
 
 def terrains(attributes: Mapping[str, Any]) -> dict[str, TerrainHistory]:
-    """By name those of a result with these attributes."""
+    """By name those of a result with these attributes. Raises ValueError where they are damaged."""
+    texts: dict[str, str] = json.loads(str(attributes.get(ATTRIBUTE) or "{}"))
     out = {}
-    for name, told in json.loads(str(attributes.get(ATTRIBUTE) or "{}")).items():
-        texts = {key: (zlib.decompress(base64.b64decode(told[key][1])), told[key][0]) for key in KINDS}
-        arrays = {key: np.frombuffer(text, KINDS[key]).reshape(shape) for key, (text, shape) in texts.items()}
-        out[name] = TerrainHistory(told["step"], **arrays)
+    for name, text in texts.items():
+        try:
+            with np.load(BytesIO(base64.b64decode(text))) as arrays:
+                out[name] = TerrainHistory(**arrays)
+        except (BadZipFile, OSError, EOFError) as error:
+            raise ValueError(str(error)) from None
     return out
-
-
-def ground(attributes: Mapping[str, Any], time: float, force: str | None) -> Array:
-    """Heights of `Result.ground`. Raises ModelError where there is no such soil."""
-    found = terrains(attributes)
-    name = next(iter(found)) if force is None and len(found) == 1 else f"soil of {force}"
-    if name not in found:
-        names = ", ".join(f"`{each.removeprefix('soil of ')}`" for each in found) or "there is none"
-        raise ModelError(f"heights of a soil were asked for; this result has those under: {names}")
-    return found[name].at(time)

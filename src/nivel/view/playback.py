@@ -154,7 +154,7 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
     modal = _read(result, "modal_coordinate", frames)
     rows = frame_plan.rows(position - np.array(where.origin), orientation, modal, vectors)
     bending, felt, colourless = flexible(scene, block, modal), None, []
-    past = nivel.results.terrain.terrains(result.attributes) if players.terrains else {}
+    past = result.terrains if players.terrains else {}
     terrains = [
         replace(each, course=course(past[each.name].thinned(budget.moves), block)) if each.name in past else each
         for each in players.terrains

@@ -116,7 +116,7 @@ def test_a_page_has_the_terrain_where_it_stands_in_space():
     (load,) = ground["loads"]
     assert load == {"slot": 0, "body": 0, "point": [-0.4, 0.0, 0.0], "half": [0.0, 0.4, 0.0]}
     (terrain,) = result.terrains.values()
-    course = {name: unpacked(each, arrays) for name, each in ground["course"].items()}
+    course = {name: unpacked(ground[name], arrays) for name in ("nodes", "moves")}
     steps = np.bincount(
         np.cumsum(course["nodes"].astype(np.int32)), course["moves"].astype(np.uint16).view(np.int16), heights.size
     )

@@ -123,7 +123,7 @@ class Result(Tabulated):
     def terrains(self) -> dict[str, TerrainHistory]:
         """Soils by name; `at(time)` of one is its heights [m] at a time [s], rows along y and columns along x of its plane."""
         with understood(self._contents, "terrain"):
-            return nivel.results.terrain.terrains(self.attributes)
+            return nivel.results.terrain.terrains(self.attributes) if "terrain" in self.attributes else {}
 
     def _json(self, attribute: str) -> dict[str, Any]:
         return json.loads(str(self.attributes.get(attribute, "{}")))

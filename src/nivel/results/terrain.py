@@ -135,7 +135,7 @@ class TerrainHistory:
 
 def terrains(attributes: Mapping[str, Any]) -> dict[str, TerrainHistory]:
     """By name those of a result with these attributes. Raises ValueError where they are damaged."""
-    texts: dict[str, str] = json.loads(str(attributes.get(ATTRIBUTE) or "{}"))
+    texts: dict[str, str] = json.loads(str(attributes[ATTRIBUTE]))
     out = {}
     for name, text in texts.items():
         try:

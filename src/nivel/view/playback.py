@@ -16,7 +16,7 @@ from nivel.view.couplings import couplings
 from nivel.view.extent import extent
 from nivel.view.package import Block, to_bytes
 from nivel.view.records import PROTOCOL, Arrow, Column, Flexible, Joint, Moment, Motion, Package, Sections, Stage
-from nivel.view.stage import Cast, cast, course, flexible
+from nivel.view.stage import Cast, cast, flexible
 
 MOST: Final = 20_000  # variables that are listed
 # of variables that belong to what is named after them
@@ -144,7 +144,7 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
     """What the page needs of a result; `number` : 0, or of a ghost."""
     scene, record = _described(result)
     _refuse_empty(result, scene)
-    players = _cast(result, scene, record, block)
+    players = _cast(result, scene, record, block, budget)
     bodies = len(players.bodies)
     frames = played_frames(result, budget)
     position, orientation = _poses(result, bodies, frames)
@@ -154,16 +154,11 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
     modal = _read(result, "modal_coordinate", frames)
     rows = frame_plan.rows(position - np.array(where.origin), orientation, modal, vectors)
     bending, felt, colourless = flexible(scene, block, modal), None, []
-    past = result.terrains if players.terrains else {}
-    terrains = [
-        replace(each, course=course(past[each.name].thinned(budget.moves), block)) if each.name in past else each
-        for each in players.terrains
-    ]
     if number == 0:
         bending, felt, colourless = _coloured(result, bending, frames, block, budget)
     return Stage(
         **vars(where),
-        **{**players.lists, "joints": drawn.joints or players.joints, "terrains": terrains},
+        **{**players.lists, "joints": drawn.joints or players.joints},
         name=result.name,
         title=str(result.path.name) if result.path else result.name,
         layout=frame_plan.layout(bodies, 0 if modal is None else modal.shape[1], vectors.shape[1]),
@@ -248,9 +243,10 @@ def _described(result: Result) -> tuple[dict[str, Any], dict[str, Any]]:
     return scene, record
 
 
-def _cast(result: Result, scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
+def _cast(result: Result, scene: dict[str, Any], record: dict[str, Any], block: Block, budget: Budget) -> Cast:
+    past = {name: each.thinned(budget.moves) for name, each in result.terrains.items()}
     try:
-        return cast(scene, record, block)
+        return cast(scene, record, block, past)
     except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
         raise ModelError(f"{_title(result)}: its description of the machine is damaged ({error!r})") from error
 

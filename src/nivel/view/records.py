@@ -272,31 +272,25 @@ class Load:
 
 
 @dataclass(frozen=True)
-class Course:
-    """How a terrain changes. time (k,) [s] : of moments; ends (k,) : numbers of moves up to each. nodes (n,) : that move, each as what is
-    added to the one before; moves (n,) : steps, negative ones behind 65536. carried (k, slots) [m³]."""
-
-    time: Packed
-    ends: Packed
-    nodes: Packed
-    moves: Packed
-    carried: Packed
-
-
-@dataclass(frozen=True)
 class Terrain:
     """Ground that deforms: `heights` [m] of nodes in rows along x over a plane through `corner`; cells have the sides `along` and `across`.
-    They move by whole steps [m]; `course` : of a motion that is known, else moves come as messages.
+
+    Nodes move by whole steps [m]. time (k,) [s] : of moments, none where moves come as messages; ends (k,) : numbers of moves up to each.
+    nodes (n,) : that move, each as what is added to the one before; moves (n,) : steps, negative ones behind 65536. carried (k, slots): m³.
     """
 
     name: str
     corner: Triple
     along: Triple
     across: Triple
-    heights: Packed
     step: float
     loads: list[Load]
-    course: Course | None = None
+    heights: Packed
+    time: Packed
+    ends: Packed
+    nodes: Packed
+    moves: Packed
+    carried: Packed
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 import base64
 import zlib
+from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
@@ -16,7 +17,7 @@ from nivel.machine.core.vectors import Array
 from nivel.view.acting import Acted
 from nivel.view.coordinate_places import triple
 from nivel.view.package import Block, Kind
-from nivel.view.records import Body, Course, Flexible, Force, Joint, Load, Marker, Part, Sweep, Terrain
+from nivel.view.records import Body, Flexible, Force, Joint, Load, Marker, Part, Sweep, Terrain
 
 
 def _sweep(sweep: dict[str, Any], places: dict[str, int]) -> Sweep:
@@ -35,6 +36,13 @@ def _sweep(sweep: dict[str, Any], places: dict[str, int]) -> Sweep:
     )
 
 
+COURSE: Final[dict[str, Kind]] = {
+    "time": "f8",
+    "ends": "u4",
+    "nodes": "u4",
+    "moves": "u2",
+    "carried": "f4",
+}  # of terrains
 MOMENTS: Final = 100  # that are looked at for the largest displacement
 
 
@@ -55,8 +63,10 @@ class Cast(Acted):
         return {name: each for name, each in vars(self).items() if isinstance(each, list)}
 
 
-def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
-    """The elements of a machine. scene : as in a result; record : its machine record as JSON, which may be empty."""
+def cast(
+    scene: dict[str, Any], record: dict[str, Any], block: Block, past: Mapping[str, TerrainHistory] | None = None
+) -> Cast:
+    """The elements of a machine. scene : as in a result; record : its machine record as JSON, which may be empty. past : of soils."""
     bodies, around = scene.get("bodies", []), scene.get("surroundings", [])
     places = {body["name"]: k for k, body in enumerate(bodies)} | {"ground": -1}
     chains = {body: each for each in scene.get("sweeps", []) for body in each["bodies"]}
@@ -74,27 +84,26 @@ def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
         markers=[_marker(each, places) for each in scene.get("markers", []) if each["body"] != "ground"],
         sweeps=[_sweep(each, places) for each in scene.get("sweeps", [])],
         surroundings=[part(each, block) for each in around if "soil" not in each],
-        terrains=[_terrain(each, places, block) for each in around if "soil" in each],
+        terrains=[
+            _terrain(each, places, block, (past or {}).get(each["soil"]["name"])) for each in around if "soil" in each
+        ],
     )
 
 
-def _terrain(ground: dict[str, Any], places: dict[str, int], block: Block) -> Terrain:
-    """Ground with soil."""
+def _terrain(ground: dict[str, Any], places: dict[str, int], block: Block, past: TerrainHistory | None) -> Terrain:
+    """Ground with soil, and how it changes where that is known."""
     soil, (vertices, _) = ground["soil"], surface_arrays(ground["surface"])
-    columns, corner, along, across = int(soil["columns"]), *(triple(soil[key]) for key in ("corner", "along", "across"))
-    normal, cell = np.cross(along, across), float(np.linalg.norm(along))
-    heights = (vertices - corner) @ (normal / cell**2)
+    corner, along, across = (triple(soil[key]) for key in ("corner", "along", "across"))
+    cell = float(np.linalg.norm(along))
+    heights = (vertices - corner) @ (np.cross(along, across) / cell**2)
     loads = [
         Load(each["slot"], places[each["body"]], triple(each["point"]), triple(each["half"])) for each in soil["loads"]
     ]
-    packed = block.add(heights.reshape(-1, columns), "f4")
-    return Terrain(soil["name"], corner, along, across, packed, cell / nivel.results.terrain.STEPS, loads)
-
-
-def course(terrain: TerrainHistory, block: Block) -> Course:
-    """How a terrain changes, as a result has it."""
-    kinds: dict[str, Kind] = {"time": "f8", "ends": "u4", "nodes": "u4", "moves": "u2", "carried": "f4"}
-    return Course(**{name: block.add(getattr(terrain, name), kind) for name, kind in kinds.items()})
+    return Terrain(
+        soil["name"], corner, along, across, cell / nivel.results.terrain.STEPS, loads,
+        block.add(heights.reshape(-1, soil["columns"])),
+        **{name: block.add(np.zeros(0) if past is None else getattr(past, name), kind) for name, kind in COURSE.items()},
+    )  # fmt: skip
 
 
 def _marker(marker: dict[str, Any], places: dict[str, int]) -> Marker:

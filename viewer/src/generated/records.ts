@@ -160,25 +160,20 @@ export interface Load {
   half: [number, number, number];
 }
 
-/** How a terrain changes. time (k,) [s] : of moments; ends (k,) : numbers of moves up to each. nodes (n,) : that move, each as what is added to the one before; moves (n,) : steps, negative ones behind 65536. carried (k, slots) [m³]. */
-export interface Course {
-  time: Packed;
-  ends: Packed;
-  nodes: Packed;
-  moves: Packed;
-  carried: Packed;
-}
-
-/** Ground that deforms: `heights` [m] of nodes in rows along x over a plane through `corner`; cells have the sides `along` and `across`. They move by whole steps [m]; `course` : of a motion that is known, else moves come as messages. */
+/** Ground that deforms: `heights` [m] of nodes in rows along x over a plane through `corner`; cells have the sides `along` and `across`. Nodes move by whole steps [m]. time (k,) [s] : of moments, none where moves come as messages; ends (k,) : numbers of moves up to each. nodes (n,) : that move, each as what is added to the one before; moves (n,) : steps, negative ones behind 65536. carried (k, slots): m³. */
 export interface Terrain {
   name: string;
   corner: [number, number, number];
   along: [number, number, number];
   across: [number, number, number];
-  heights: Packed;
   step: number;
   loads: Load[];
-  course: Course | null;
+  heights: Packed;
+  time: Packed;
+  ends: Packed;
+  nodes: Packed;
+  moves: Packed;
+  carried: Packed;
 }
 
 /** What colours of beams can show, from `low` to `high` in the motion. rows : one of the numbers of a point, or the length of several. A point has 12: strains (stretch, two shears), twist and two curvatures; then force and moment of the section in its axes. */

@@ -26,7 +26,7 @@ export class Terrain {
   private readonly normals: Float32Array;
   private readonly colours: Float32Array;
   private readonly steps: Int32Array; // of each node from where it lay
-  private readonly course: { time: Float64Array; ends: Uint32Array; carried: Float32Array; nodes: Uint32Array; moves: Int16Array } | null = null;
+  private readonly course: { time: Float64Array; ends: Uint32Array; carried: Float32Array; nodes: Uint32Array; moves: Int16Array };
   private readonly marked: Uint8Array; // nodes whose normal is not known any more
   private waiting: number[] = [];
   private passed = 0; // moments
@@ -62,17 +62,15 @@ export class Terrain {
     this.mesh.castShadow = this.mesh.receiveShadow = true;
     this.mesh.frustumCulled = false; // its extent changes
     this.heaps = ground.loads.map(heap);
-    const { course } = ground;
-    if (!course) return;
-    const nodes = arrays.indices(course.nodes);
+    const nodes = arrays.indices(ground.nodes);
     for (let k = 1; k < nodes.length; k++) nodes[k]! += nodes[k - 1]!;
-    this.course = { time: arrays.times(course.time), ends: arrays.indices(course.ends), carried: arrays.floats(course.carried), nodes, moves: arrays.signed(course.moves) };
+    this.course = { time: arrays.times(ground.time), ends: arrays.indices(ground.ends), carried: arrays.floats(ground.carried), nodes, moves: arrays.signed(ground.moves) };
   }
 
   /** As it is at a time of a motion that is known. */
   goTo(time: number): void {
     const { course } = this;
-    if (!course) return;
+    if (!course.time.length) return;
     const slots = course.carried.length / course.time.length;
     while (this.passed < course.time.length && course.time[this.passed]! <= time) this.pass(this.passed++, 1);
     while (this.passed > 0 && course.time[this.passed - 1]! > time) this.pass(--this.passed, -1);
@@ -105,7 +103,7 @@ export class Terrain {
   }
 
   private pass(moment: number, way: 1 | -1): void {
-    const { ends, nodes, moves } = this.course!;
+    const { ends, nodes, moves } = this.course;
     for (let k = moment ? ends[moment - 1]! : 0; k < ends[moment]!; k++) this.move(nodes[k]!, way * moves[k]!);
   }
 

@@ -15,6 +15,7 @@ from nivel.elements.forces.loads import PairForce, PointForce, Torque
 from nivel.elements.forces.shafts import BeltDrive, DriveLine, Shaft
 from nivel.elements.forces.spring_series import SpringSeries
 from nivel.elements.forces.springs import JointSpringDamper, SpringDamper, ThreeAxisSpring, TorsionalSpringDamper
+from nivel.elements.forces.terramechanics import Track
 from nivel.elements.forces.tyre import Tyre
 from nivel.files.placement import AXIAL_Z, POLAR_Z, Scene, by_rules
 from nivel.files.substitution import Linear, NotRepresentableError, mixed, negative, substituted
@@ -134,12 +135,16 @@ def _contact(force: Contact, scene: Scene) -> Changes:
     return {} if force.plane is None else {"plane": scene.end(force.plane, POLAR_Z)}
 
 
-def _tyre(force: Tyre, scene: Scene) -> Changes:
+def _on_ground(force: Tyre | Track, scene: Scene) -> Changes:
     if force.heights is not None and scene.placement.mirrored:
         raise NotRepresentableError("ground with `heights` cannot be mirrored; write the mirrored heights out")
     if isinstance(force.grip, _FUNCTIONS) and scene.placement.turns:
-        raise NotRepresentableError("a tyre whose `grip` is a function in a rotated part is not supported")
-    return {"wheel": scene.end(force.wheel), "plane": scene.end(force.plane, POLAR_Z)}
+        raise NotRepresentableError(f"a {force.type} whose `grip` is a function in a rotated part is not supported")
+    plane = scene.end(force.plane, POLAR_Z)
+    if isinstance(force, Tyre):
+        return {"wheel": scene.end(force.wheel), "plane": plane}
+    contact = tuple(scene.end(each, POLAR_Z) for each in force.contact)
+    return {"contact": contact, "sprocket": scene.end(force.sprocket), "plane": plane}
 
 
 def _many_ends(force: BetweenMany, scene: Scene) -> Changes:
@@ -226,7 +231,8 @@ _RULES: dict[type[Record], Callable[[Any, Scene], Changes]] = {
     ThreeAxisSpring: _three_axis_spring,
     Contact: _contact,
     BetweenMany: _many_ends,
-    Tyre: _tyre,
+    Tyre: _on_ground,
+    Track: _on_ground,
     SpringSeries: partial(placed_ends, with_axes=False),
     DriveLine: _of_drive_line,
     BeltDrive: _of_belt,

@@ -257,6 +257,7 @@ def test_a_cart_comes_to_rest_on_a_slope():
     )
 
 
+@pytest.mark.parametrize("kind", ["blade", "track"])
 @pytest.mark.parametrize(
     "analysis",
     [
@@ -270,10 +271,23 @@ def test_a_cart_comes_to_rest_on_a_slope():
         lambda own: export_page(own, "soil.html"),
     ],
 )
-def test_what_cannot_have_soil_says_so(analysis, tmp_path, monkeypatch):
+def test_what_cannot_have_soil_says_so(analysis, kind, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    sections = bucket()
+    if kind == "track":
+        sections["bodies"]["sprocket"] = {"mass": 5, "inertia": [1, 1, 1], "position": [-5, 0, 2]}
+        sections["joints"]["hub"] = {
+            "type": "revolute",
+            "bodies": ["bucket", "sprocket"],
+            "point": [-5, 0, 2],
+            "axis": [0, 1, 0],
+        }
+        ends = [{"body": "bucket", "position": [x, 0, -1.05]} for x in (1, -1)]
+        soil = {key: sections["forces"]["digging"][key] for key in ("plane", "heights", "soil")}
+        sections["forces"]["digging"] = {"type": "track", "contact": ends, "radius": 0.3, "width": 0.5, **soil,
+                                         "sprocket": {"body": "sprocket", "axis": [0, 1, 0]}}  # fmt: skip
     with pytest.raises(ModelError, match="depends on how it was pressed and cut before") as raised:
-        analysis(machine(bucket()))
+        analysis(machine(sections))
     assert raised.value.faults[0].path == "forces.digging"
     assert not list(tmp_path.iterdir())
 

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+import nivel
 from nivel.errors import ModelError, SolveError
 from simulating import G, machine, simulate
 
@@ -259,6 +260,47 @@ def test_grip_by_place_turns_a_machine_that_brakes():
     for name, grip in (("left", 0.2), ("right", 0.8)):
         held = -found.array(f"force.{name}.pull")[early] / found.array(f"force.{name}.magnitude")[early]
         assert held == pytest.approx(grip, rel=0.01)
+
+
+PART = """format: 1
+name: side
+bodies:
+  frame: {mass: 10 t, inertia: [5000, 10000, 12000], position: [0, 0, 0.79]}
+  sprocket: {mass: 50, inertia: [2, 4, 2], position: [-1.5, 0, 0.34]}
+markers:
+  front: {body: frame, position: [1.5, 0.2, -0.8]}
+  rear: {body: frame, position: [-1.5, 0.2, -0.8]}
+  axle: {body: sprocket, axis: [0, 1, 0]}
+  floor: {body: ground, axis: [0, 0, 1]}
+joints:
+  hub: {type: revolute, bodies: [frame, sprocket], point: [-1.5, 0, 0.34], axis: [0, 1, 0]}
+  upright: {type: planar, bodies: [ground, frame], point: [0, 0, 0.79], axis: [0, 0, 1]}
+forces:
+  belt: {type: track, contact: [front, rear], sprocket: axle, radius: 0.3, width: 0.5, plane: floor}
+  gust: {type: force, body: frame, position: [1, 0, 0], vector: ["40000*step(time, 0, 0, 0.2, 1)", 0, 0]}
+"""
+MACHINE = """format: 1
+name: placed
+gravity: [0, 0, -9.81]
+assemblies:
+  one: {file: side.yaml}
+  turned: {file: side.yaml, position: [0, 9, 0], orientation: {axis: [0, 0, 1], angle: 90 deg}}
+  mirrored: {file: side.yaml, mirror: y}
+simulation: {duration: 1, step: 1 ms}
+"""
+
+
+def test_a_part_with_a_track_is_turned_and_mirrored(tmp_path):
+    (tmp_path / "side.yaml").write_text(PART)
+    (tmp_path / "machine.yaml").write_text(MACHINE)
+    found = nivel.load(tmp_path / "machine.yaml").simulate(verify=False)
+    names = [each["name"] for each in found.scene["bodies"]]
+    one, turned, mirrored = (
+        found.array("position")[:, names.index(f"{part}_frame")] for part in ("one", "turned", "mirrored")
+    )
+    assert np.ptp(one, axis=0)[0] > 0.5
+    assert np.abs(one[:, [1, 0, 2]] * [-1, 1, 1] + [0, 9, 0] - turned).max() < 1e-9
+    assert np.abs(one * [1, -1, 1] - mirrored).max() < 1e-9
 
 
 @pytest.mark.parametrize(

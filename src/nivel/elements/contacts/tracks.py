@@ -114,7 +114,7 @@ def shear_belt(machine, index, n, belt, shear_length, ahead, sticks):
         ux = -(vx + slides * sx) / (shear_length + ahead * slides)
         uy = -(vy + slides * sy) / (shear_length + ahead * slides)
         if real(own[3]) <= 0.0:
-            ux, uy, out_x, out_y = -sx / ahead, -sy / ahead, sx, sy
+            ux, uy, out_x, out_y = -sx / CARCASS_TIME, -sy / CARCASS_TIME, sx, sy
         elif real(passing) > 0.0 and real(speed) > 0.0:
             left = handed_on(speed / ((shear_length + ahead * speed) * passing))
             out_x, out_y = left * sx - (1.0 - left) * vx / speed, left * sy - (1.0 - left) * vy / speed

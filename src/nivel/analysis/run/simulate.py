@@ -1,7 +1,8 @@
 """A whole run: from a machine record to a result with its trust report; and the second choice of a run that names no integrator.
 
 Other steps are tried where the trust report is not green for what steps can cure. The second run of the first choice is there and finer:
-it becomes the result, and a third one with a tenth of its tolerance verifies it. Where steps are fixed, the machine runs once more with
+it becomes the result, and a third one with a tenth of its tolerance verifies it. Where the motion turned to another branch, fixed steps
+are tried, which pass over the corner. Where steps are fixed, the machine runs once more with
 steps as short as the lines that are not green ask for, and work allows. At last radau runs from the start, but of beams, whose vibrations
 it would follow. The choice whose report is best is kept, and the report says what was tried.
 """
@@ -54,6 +55,7 @@ STATUSES = (
 )
 OF_FIXED_STEPS: Final = "rk4"
 FAILED: Final = "no method is named, and steps that follow the motion come to no end"
+BRANCHED: Final = "no method is named, and steps that follow the motion turn where it branches"
 # Fixed steps are divided by so much at most; the error is to be this much below what is green.
 MOST_PARTS, MARGIN = 16, 1.5
 # Work grows by this power of the number of steps (measured 0.1 to 0.7), as shorter ones need fewer iterations: what is not affordable is
@@ -104,6 +106,10 @@ def _choices(first: Attempt, trust: Trust, options: Options) -> Iterator[Attempt
     """Other choices, made when they are asked for."""
     plan = first.plan
     asked = plan.asked.simulation.model_fields_set if plan.asked is not None else set()
+    if any(item.name == "branch" and item.verdict != "green" for item in trust.items):
+        passing = other_run(plan, OF_FIXED_STEPS)
+        if passing is not None and (choice := _started(replace(passing, reason=BRANCHED), options)) is not None:
+            yield choice
     if "tolerance" in asked:
         return
     if plan.settings.tolerance is not None:

@@ -108,6 +108,7 @@ def _no_step(stop: Stop) -> Told | None:
         return message, (
             "The machine is in or near a singular position, where constraints depend on each other: two links in line, or a loop folded "
             "flat? Start the run elsewhere, or move a joint by a small amount so that the machine does not pass through it exactly."
+            + (" Fixed steps pass over it, as those of --integrator rk4." if stop.chosen_by != KINEMATICS else "")
         )
     if stop.chosen_by == KINEMATICS:
         return message, (
@@ -206,7 +207,8 @@ def _contradiction(stop: Stop) -> Told | None:
     if control.stabilise[2] > 0.0:
         return message, (
             "The joints fit together where the run started, and not here: is the loop, by its lengths and axes, mobile everywhere? "
-            f"`nivel check` proposes joints with which nothing is redundant. With --step {stop.step / 10:.3g} an error of steps is smaller."
+            "`nivel check` proposes joints with which nothing is redundant. A position where the motion branches is passed by fixed "
+            f"steps, --integrator rk4. With --step {stop.step / 10:.3g} an error of steps is smaller."
         )
     closes = "take --stabilisation direct, which closes all constraints"
     return message, f"That is drift: {closes}, or --step {stop.step / 10:.3g}."

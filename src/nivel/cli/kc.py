@@ -63,7 +63,7 @@ def command(machine: str, overrides: dict[str, str], chassis: str | None, hold: 
                 found[case] = measured(rig, wheels, case, size, listener)
     finally:  # what was measured before a case that fails is kept
         if "bump" in found:
-            trust = ", ".join(f"{case} {each.trust}" for case, each in found.items())
+            trust = max((each.trust for each in found.values()), key=("green", "amber", "red").index)
             told = {owner: (each, trust) for owner, each in kc.numbers_of(wheels, found, braking).items()}
             nivel.files.target.write_file(page, "page", kc.kc_html(loaded.name, wheels, found, told))
     tell(told, page, quiet=quiet, as_json=as_json)
@@ -98,8 +98,9 @@ def on_rig(machine: Machine, chassis: str | None = None, hold: tuple[str, ...] =
     driven = {each.coordinate for each in record.drivers}
     free = [each for each in dict.fromkeys(held) if not driven & {each, each.partition(".")[0]}]
     locks = [nivel.Driver(name=f"kc_{k}", coordinate=each, value=0.0, from_start=True) for k, each in enumerate(free)]
-    forces = [each for each in record.forces if each.type != "tyre"]
-    return machine.replace(joints=joints, drivers=[*record.drivers, *locks], forces=forces), wheels
+    still = {*held, *(each.partition(".")[0] for each in held)}  # what acts there, as brakes do, moves nothing
+    forces = [each for each in record.forces if each.type != "tyre" and getattr(each, "coordinate", None) not in still]
+    return machine.replace(joints=joints, drivers=[*record.drivers, *locks], forces=forces, control=[]), wheels
 
 
 def measured(rig: Machine, wheels: list[Wheel], case: str, size: float, listener: Any = None) -> Curves:

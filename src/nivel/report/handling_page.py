@@ -155,9 +155,10 @@ def handling_html(machine: str, found: Mapping[str, tuple[Manoeuvre, Numbers, st
 
 
 def plots_page(name: str, told: Mapping[str, tuple[Numbers, str]], plots: list[tuple[str, str]], note: str) -> str:
-    """A page of numbers, each row with its verdict, and of plots with their titles."""
-    said = [
-        f"{of}: {'; '.join(f'{what} {value:.4g} {unit}' for what, (value, unit) in numbers.items())} (trust: {trust})"
-        for of, (numbers, trust) in told.items()
-    ]
-    return page("plots.html.j2", ("reduction.css", "plots.css"), name=name, said=said, plots=plots, note=note)
+    """A page of numbers, a column each with its verdict, and of plots with their titles."""
+    units = {what: unit for numbers, _ in told.values() for what, (_, unit) in numbers.items()}
+    columns = [{what: f"{value:.4g}" for what, (value, _) in numbers.items()} for numbers, _ in told.values()]
+    rows = [(f"{what} [{unit}]", [column.get(what, "") for column in columns]) for what, unit in units.items()]
+    rows.append(("trust", [trust for _, trust in told.values()]))
+    styles = ("reduction.css", "plots.css")
+    return page("plots.html.j2", styles, name=name, heads=[*told], rows=rows, plots=plots, note=note)

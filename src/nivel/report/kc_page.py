@@ -185,4 +185,5 @@ def kc_html(
     plot("bump", "centre to the front", "mm", {name: each[:, 0] for name, each in place.items()})
     plot("bump", "centre outwards", "mm", {each.name: each.side * place[each.name][:, 1] for each in wheels})
     plot("bump", "roll centre", "mm", {a.name: 1e3 * roll_centre(bump, a, b)[:, 1] for a, b in axles(wheels, bump)})
-    return plots_page(f"{machine}: K&C", told, plots, NOTE)
+    trust = ", ".join(f"{case} {each.trust}" for case, each in found.items())
+    return plots_page(f"{machine}: K&C", told, plots, f"{NOTE} Trust: {trust}.")

@@ -143,7 +143,7 @@ def test_the_command_drives_the_example_and_writes_a_page(tmp_path, monkeypatch)
     assert found["split-grip"]["mean deceleration"] > 2.0
     page = (tmp_path / "lane-change-handling.html").read_text()
     assert "g-g diagram" in page
-    assert "slope: " in page
+    assert "rolls back [m]" in page
 
 
 @pytest.mark.parametrize(

@@ -161,8 +161,7 @@ def add_wheel(builder: SystemBuilder, force: SoilWheel) -> None:
 def add_track(builder: SystemBuilder, force: Track) -> None:
     """A track, with two shares of each patch, and on soil one of what resists at either end."""
     front, rear, sprocket = map(builder.end, (*force.contact, force.sprocket))
-    frame, turning = builder.markers.body[front], builder.markers.body[sprocket]
-    (body, a, axes), (other, b, _) = map(builder.as_placed, force.contact)
+    (body, a, axes), (other, b, _), (turning, _, _) = map(builder.as_placed, (*force.contact, force.sprocket))
     if body != other or body == GROUND:
         raise ModelError(Fault.at(f"forces.{force.name}.contact", "both markers of a belt stand on one body"))
     if np.linalg.norm(np.cross(axes[:, 2], a - b)) < LEAST_SINE * np.linalg.norm(a - b) or np.array_equal(a, b):
@@ -170,10 +169,8 @@ def add_track(builder: SystemBuilder, force: Track) -> None:
             "the z axis of the first marker points away from the ground, across the line from the second one to it"
         )
         raise ModelError(Fault.at(f"forces.{force.name}.contact", message))
-    if turning == frame:
-        raise ModelError(
-            Fault.at(f"forces.{force.name}.sprocket", "the sprocket stands on the frame; it needs a body that turns")
-        )
+    if turning in (body, GROUND):
+        raise ModelError(Fault.at(f"forces.{force.name}.sprocket", "the sprocket needs a body that turns on the frame"))
     weight = STANDARD_GRAVITY * sum(each.mass or 0.0 for each in builder.machine.bodies)
     tracks_of_machine = sum(isinstance(each, Track) for each in builder.machine.forces)
     stiffness = force.stiffness or weight / tracks_of_machine / PRESSED_IN

@@ -103,8 +103,10 @@ def _acts_on(machine: MachineRecord, force: ForceElement) -> str:
             planes = f" and {len(force.planes)} plane{'s' if len(force.planes) > 1 else ''}" if force.planes else ""
             creeps = "; bodies at rest creep, `friction_model: stiction` holds up to 15 of them"
             return f"{len(spheres_between(machine, force))} spheres{planes}{creeps if force.friction else ''}"
-    if (wheel := getattr(force, "wheel", None)) is not None:
-        return f"{body(wheel)} and {body(getattr(force, 'plane', ''))}; {getattr(force, 'source', '')}"
+    on_ground = [end for key in ("edge", "contact") for end in getattr(force, key, ())]
+    if (first := getattr(force, "wheel", next(iter(on_ground), None))) is not None:
+        source = getattr(force, "source", "")
+        return f"{body(first)} and {body(getattr(force, 'plane', ''))}{f'; {source}' if source else ''}"
     return str(getattr(force, "coordinate", None) or getattr(force, "body", ""))
 
 

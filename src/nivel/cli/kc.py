@@ -83,15 +83,17 @@ def on_rig(machine: Machine, chassis: str | None = None, hold: tuple[str, ...] =
     if chassis != "ground" and chassis not in record.body_named:
         raise ModelError(Fault.at("kc.chassis", f"there is no body `{chassis}`"))
     builder = nivel.system.builder.SystemBuilder(record)
-    turning: list[Any] = [each for each in record.joints if each.type == "revolute" and each.point and each.bodies]
+    ends = {each.name: nivel.system.states.relative.bodies_of(record, each) for each in record.joints}
+    turning: list[Any] = [each for each in record.joints if each.type == "revolute" and (each.point or each.markers)]
+    centres = {each.name: each.point or builder.as_placed(each.markers[0])[1] for each in turning}
     for tyre in tyres:
         (body, centre, axes), m = builder.as_placed(tyre.wheel), builder.end(tyre.wheel)
         side, axle = math.copysign(1.0, centre[1]), builder.markers.frame[m][:, 2] * math.copysign(1.0, axes[1, 2])
         point = builder.markers.position[m]
         wheels.append(nivel.report.kc_page.Wheel(tyre.name, body, point, side * axle, side, tyre.radius))
-        off = {each.name: np.cross(each.point - centre, axes[:, 2]) for each in turning if body in each.bodies}
+        off = {name: np.cross(each - centre, axes[:, 2]) for name, each in centres.items() if body in ends[name]}
         held += [f"{name}.angle" for name, gap in off.items() if np.linalg.norm(gap) < ALIGNED * tyre.radius]
-    joints = [each for each in record.joints if chassis == "ground" or {*(each.bodies or ())} != {"ground", chassis}]
+    joints = [each for each in record.joints if {*ends[each.name]} != {"ground", chassis}]
     if chassis != "ground":
         place = (0.0, 0.0, 0.0)
         joints.append(nivel.Joint(name="kc_rig", type="fixed", bodies=("ground", chassis), point=place))

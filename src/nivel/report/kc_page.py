@@ -22,9 +22,8 @@ from nivel.results.result import Result
 
 NODES, RISE = 16, 6  # intervals of a way from one end to the other, and of that up to the first end
 ENDS: Final = np.cos(np.pi * np.arange(NODES + 1) / NODES)
-WAY: Final = np.concatenate(
-    [np.sin(0.5 * np.pi * np.arange(RISE) / RISE), ENDS]
-)  # shares of a case, one after the other
+# shares of a case, one after the other
+WAY: Final = np.concatenate([np.sin(0.5 * np.pi * np.arange(RISE) / RISE), ENDS])
 FINE: Final = np.linspace(-1.0, 1.0, 101)  # of curves
 MIDDLE, DEGREE = NODES // 2, float(np.degrees(1.0))
 SAME: Final = 1e-6  # [m] of wheels on one axle, along x
@@ -81,10 +80,8 @@ class Curves:
             b, name = run.coordinates["body"].index(each.body), each.name
             A = np.array([rotation(q) for q in run.array("orientation")[kept, b]])
             out.centre[name], (x, y, z) = run.array("position")[kept, b] + A @ each.point, (A @ each.axle).T
-            out.angles["toe"][name], out.angles["camber"][name] = (
-                DEGREE * np.arctan2(x, np.abs(y)),
-                -DEGREE * np.arcsin(z),
-            )
+            out.angles["toe"][name] = DEGREE * np.arctan2(x, np.abs(y))
+            out.angles["camber"][name] = -DEGREE * np.arcsin(z)
             turn = np.einsum("nij,nkj->nik", slopes(A), A)  # dA Aᵀ, the matrix of the turn
             out.way[name] = slopes(out.centre[name]) - each.radius * turn[:, :, 2]
             out.load[name] = run.array(f"driver.kc_{name}.effort")[kept]
@@ -108,11 +105,8 @@ def roll_centre(of: Curves, left: Wheel, right: Wheel | None) -> Array:
     a = across / up  # the line falls by so much outwards
     if right is None:
         return np.stack([0.0 * y, a * y], axis=1)
-    (_, v, w), (_, across, up) = (
-        of.centre[right.name].T - [[0.0], [0.0], [right.radius - left.radius]],
-        of.way[right.name].T,
-    )
-    b = across / up
+    (_, v, w), (_, across, up) = of.centre[right.name].T, of.way[right.name].T
+    b, w = across / up, w + left.radius - right.radius
     meets = (z - w + a * y - b * v) / np.where(np.abs(a - b) > LEVEL, a - b, np.nan)
     meets = np.where(np.isnan(meets), 0.5 * (y + v), meets)  # level lines meet everywhere
     return np.stack([meets, 0.5 * (a * (y - meets) + b * (v - meets))], axis=1)

@@ -11,6 +11,7 @@ from numpy.polynomial.chebyshev import Chebyshev
 from scipy.optimize import fsolve
 from scipy.spatial.transform import Rotation
 
+import nivel
 from nivel.cli import main
 from nivel.cli.kc import measured, on_rig
 from nivel.errors import ModelError
@@ -82,6 +83,20 @@ def axle(places, free_length=None, sides=(1, -1)):
                                    "stiffness": K, "free_length": length}  # fmt: skip
         forces[f"{name}_tyre"] = {**TYRE, "wheel": f"{name}_hub"}
     return machine({"gravity": [0, 0, 0], "bodies": bodies, "markers": markers, "joints": joints, "forces": forces})
+
+
+def test_joints_by_markers_are_those_by_points():
+    wanted = measured(*on_rig(axle(SPATIAL)), "bump", TRAVEL)
+    own = axle(SPATIAL)
+    seen_from, marked = nivel.system.builder.SystemBuilder(own.record).seen_from, []
+    for joint in own.record.joints:
+        if joint.name in ("stands", "left_axle"):
+            ends = [seen_from(body, np.array(joint.point), np.eye(3)) for body in joint.bodies]
+            pair = tuple(nivel.Marker(body=end[0], position=tuple(end[1]), axis=joint.axis) for end in ends)
+            marked.append(nivel.Joint(name=joint.name, type=joint.type, markers=pair))
+    found = measured(*on_rig(own.replace(*marked)), "bump", TRAVEL)
+    for name, angles in wanted.angles["camber"].items():
+        assert found.angles["camber"][name] == pytest.approx(angles, abs=1e-9)
 
 
 def closed(places):

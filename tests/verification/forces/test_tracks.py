@@ -332,3 +332,14 @@ def test_a_track_that_cannot_be_is_refused(changes, place, said):
     fault = raised.value.faults[0]
     assert said in fault.message
     assert fault.path.startswith(f"forces.belt.{place}")
+
+
+def test_stiffness_that_is_not_given_is_by_all_weight_also_that_of_shapes():
+    sections = crawler(locked=True)
+    frame = sections["bodies"]["frame"]
+    for key in ("mass", "inertia"):
+        del frame[key]
+    # a box of 2.5 m³ and 10 t, around the same point
+    frame |= {"shape": {"type": "box", "size": [2.5, 1, 1]}, "density": MASS / 2.5}
+    found = machine(sections).statics().array("position")[-1, 0, 2]
+    assert found == pytest.approx(0.8 - PRESSED_IN, abs=1e-4)

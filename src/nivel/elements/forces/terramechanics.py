@@ -23,6 +23,7 @@ from nivel.errors import Fault, ModelError
 from nivel.kernels.elements.soil import address_of
 from nivel.kernels.record import function
 from nivel.known import SystemBuilder
+from nivel.machine.bodies.inertia import mass_of
 from nivel.machine.core.coefficient import PositiveAngle, Volume
 from nivel.machine.core.element import ForceElement
 from nivel.machine.core.marker import MarkerPlace, TwoMarkers
@@ -162,18 +163,24 @@ def add_track(builder: SystemBuilder, force: Track) -> None:
     """A track, with two shares of each patch, and on soil one of what resists at either end."""
     front, rear, sprocket = map(builder.end, (*force.contact, force.sprocket))
     (body, a, axes), (other, b, _), (turning, _, _) = map(builder.as_placed, (*force.contact, force.sprocket))
-    if body != other or body == GROUND:
-        raise ModelError(Fault.at(f"forces.{force.name}.contact", "both markers of a belt stand on one body"))
-    if np.linalg.norm(np.cross(axes[:, 2], a - b)) < LEAST_SINE * np.linalg.norm(a - b) or np.array_equal(a, b):
-        message = (
-            "the z axis of the first marker points away from the ground, across the line from the second one to it"
-        )
-        raise ModelError(Fault.at(f"forces.{force.name}.contact", message))
-    if turning in (body, GROUND):
-        raise ModelError(Fault.at(f"forces.{force.name}.sprocket", "the sprocket needs a body that turns on the frame"))
-    weight = STANDARD_GRAVITY * sum(each.mass or 0.0 for each in builder.machine.bodies)
-    tracks_of_machine = sum(isinstance(each, Track) for each in builder.machine.forces)
-    stiffness = force.stiffness or weight / tracks_of_machine / PRESSED_IN
+    known, along = builder.machine.body_named, a - b
+    across = float(np.linalg.norm(np.cross(axes[:, 2], along)))
+    weight = STANDARD_GRAVITY * sum(map(mass_of, builder.machine.bodies))
+    stiffness = force.stiffness or weight / sum(isinstance(each, Track) for each in builder.machine.forces) / PRESSED_IN
+    upright = "the z axis of the first marker points away from the ground, across the line from the second one to it"
+    for wrong, key, message in (
+        (body != other or body == GROUND, "contact", "both markers of a belt stand on one body"),
+        (across <= LEAST_SINE * float(np.linalg.norm(along)), "contact", upright),
+        (turning in (body, GROUND), "sprocket", "the sprocket needs a body that turns on the frame"),
+        (
+            any(known[each].flexible for each in {body, turning} & known.keys()),
+            "contact",
+            "a track stands on rigid bodies",
+        ),
+        (stiffness == 0.0, "stiffness", "must be given: no body has a weight of which a share could press the belt in"),
+    ):
+        if wrong:
+            raise ModelError(Fault.at(f"forces.{force.name}.{key}", message))
     columns = (
         add_soil(builder, force) if force.soil is not None else {"output": add_outputs(builder, force, without=ON_SOIL)}
     )

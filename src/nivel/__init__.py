@@ -26,7 +26,7 @@ __all__ = sorted(_HOMES)  # noqa: PLE0605
 # functions that results call and that stand in rooms above them
 provide(
     {
-        "comparison": "nivel.report.compare_page:write_comparison",
+        "comparison": "nivel.report.compare_page:comparison_html",
         "efforts": "nivel.report.motion_pages:efforts_html",
         "linear model": "nivel.report.linear_page:linear_html",
         "linear sweep": "nivel.report.linear_page:sweep_html",

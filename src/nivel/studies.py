@@ -14,6 +14,7 @@ from nivel.api import Machine, code_of, load
 from nivel.errors import Fault, ModelError, SolveError, gathered, refuse, retold
 from nivel.files.sources import beside, read_bytes, read_text
 from nivel.files.study_file import StudyFile, study_and_faults
+from nivel.files.target import write_page
 from nivel.known import Identified, Journal, Optimum, Resolved, Variants
 from nivel.lazy import dataclass, nivel, replace, xarray
 from nivel.machine.study.parameter import Between
@@ -334,6 +335,6 @@ def load_study(
 def write_study_report(dataset: xarray.Dataset | str | PathLike[str], path: str | PathLike[str]) -> Path:
     """Write the report of a study, or of its data file, as one HTML file that needs no network; an existing file is replaced."""
     if isinstance(dataset, xarray.Dataset):
-        return nivel.report.study_page.write_study_page(dataset, path)
+        return write_page(nivel.report.study_page.study_html(dataset), path)
     with xarray.open_dataset(dataset, engine="h5netcdf") as opened:
-        return nivel.report.study_page.write_study_page(opened.load(), path)
+        return write_page(nivel.report.study_page.study_html(opened.load()), path)

@@ -54,7 +54,8 @@ def command(
         )
         if page is not None:
             stage("writing the report", 1.0)
-            nivel.report.reduction_page.write_reduction(reduction.body, reduction.findings, page, force=force)
+            text = nivel.report.reduction_page.reduction_html(reduction.body, reduction.findings)
+            nivel.files.target.write_page(text, page, force=force)
         if vtk is not None:
             nivel.flexible.body.vtk.write_modes(reduction.body, vtk)
     if as_json:

@@ -113,6 +113,12 @@ def write_text(text: str, path: str | os.PathLike[str] | None, what: str, *, for
     return text
 
 
+def write_page(text: str, path: str | os.PathLike[str], *, force: bool = True) -> Path:
+    """Write the page `text` to `path`, and return that. An existing file is replaced with `force` only."""
+    write_text(text, path, "report", force=force)
+    return Path(path)
+
+
 class Growing:
     """A file at whose end pieces are written, each whole or not at all, by one process at a time; `end` : of the last [bytes].
 

@@ -1,12 +1,9 @@
 """The page of a comparison: which method is worth what, in one HTML file, with the work–precision diagram."""
 
 import math
-import os
 from html import escape
-from pathlib import Path
 from typing import Final, NamedTuple
 
-from nivel.files.target import write_text
 from nivel.lazy import dataclass
 from nivel.report.page import page, text_of
 from nivel.report.plots import LogAxis, power_of_ten
@@ -221,15 +218,6 @@ COLUMNS = (
     Heading("motion", "where"),
     Heading("order"),
 )
-
-
-def write_comparison(comparison: Comparison, path: str | os.PathLike[str], *, force: bool = False) -> Path:
-    """Write the page of `comparison` to `path`; an existing file is replaced with `force` only.
-
-    The file needs no network and nothing beside it.
-    """
-    write_text(comparison_html(comparison), path, "report", force=force)
-    return Path(path)
 
 
 def comparison_html(comparison: Comparison) -> str:

@@ -1,13 +1,10 @@
 """The page of a reduction: what the flexible body is worth, in one HTML file, with still pictures of its modes."""
 
-import os
-from pathlib import Path
 from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.files.target import write_text
 from nivel.flexible.body.body import ReducedBody
 from nivel.flexible.checks.findings import Findings
 from nivel.looks.viewpoint import View, choose_view
@@ -29,14 +26,6 @@ class Line(NamedTuple):
     error: str
     tone: str
     mac: str
-
-
-def write_reduction(
-    body: ReducedBody, findings: Findings, path: str | os.PathLike[str], *, force: bool = False
-) -> Path:
-    """Write the page to `path`; an existing file is replaced with `force` only. The file needs no network and nothing beside it."""
-    write_text(reduction_html(body, findings), path, "report", force=force)
-    return Path(path)
 
 
 def reduction_html(body: ReducedBody, findings: Findings) -> str:

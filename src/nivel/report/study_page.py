@@ -6,16 +6,13 @@ Of a search also the values that it found, how certain they are, and how it came
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterator
 from dataclasses import asdict
-from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.files.target import write_text
 from nivel.lazy import xarray
 from nivel.machine.core.vectors import Array
 from nivel.report.page import page, text_of
@@ -45,12 +42,6 @@ class Figures(NamedTuple):
     limits: str
     within: str
     capability: str
-
-
-def write_study_page(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> Path:
-    """Write the page of a study; an existing file is replaced. The file needs no network and nothing beside it."""
-    write_text(study_html(dataset), path, "report", force=True)
-    return Path(path)
 
 
 def study_html(dataset: xarray.Dataset) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 
 from nivel.errors import ModelError
-from nivel.files.target import write_text
+from nivel.files.target import write_page, write_text
 from nivel.lazy import asdict, dataclass, field, fields, provided, replace
 from nivel.results.comparison_table import as_html, as_text
 from nivel.results.trust import Trust, storable
@@ -233,7 +233,7 @@ class Comparison:
 
         force : replace an existing file.
         """
-        return provided("comparison")(self, path, force=force)
+        return write_page(provided("comparison")(self), path, force=force)
 
     def __str__(self) -> str:
         return as_text(self)

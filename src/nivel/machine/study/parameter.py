@@ -2,12 +2,9 @@
 
 import re
 from collections.abc import Iterator, Mapping
-from functools import reduce
-from operator import or_
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal, Self, get_args
+from typing import Annotated, Any, ClassVar, Final, Literal, Self, get_args
 
-from pydantic import BeforeValidator, GetCoreSchemaHandler
-from pydantic_core import CoreSchema
+from pydantic import BeforeValidator
 
 from nivel.errors import Fault, ModelError
 from nivel.machine.core.record import Checked, Problem
@@ -222,19 +219,9 @@ def _with_type(value: Any) -> Any:
     return value
 
 
-class _AnyParameter:
-    """A record of one of PARAMETERS, told apart by its `type`."""
-
-    @classmethod
-    def __get_pydantic_core_schema__(cls, _: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        kinds: Any = reduce(or_, PARAMETERS)
-        return handler.generate_schema(Annotated[kinds, Field(discriminator="type"), BeforeValidator(_with_type)])
-
-
-if TYPE_CHECKING:
-    StudyParameter = Values | Range | Uniform | Normal | Triangular | Tolerance
-else:
-    StudyParameter = _AnyParameter
+StudyParameter = Annotated[
+    Values | Range | Uniform | Normal | Triangular | Tolerance, Field(discriminator="type"), BeforeValidator(_with_type)
+]
 
 
 # Outputs of a study: a number of each variant, and the limits between which it should be.
@@ -362,19 +349,11 @@ def _from_words(given: Any) -> Any:
         raise fault("; ".join(each.message for each in error.faults)) from None
 
 
-class _AnyOutput:
-    """A record of one of OUTPUTS, told apart by its `type`, or in words (`said_output`)."""
-
-    @classmethod
-    def __get_pydantic_core_schema__(cls, _: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        kinds: Any = reduce(or_, OUTPUTS)
-        return handler.generate_schema(Annotated[kinds, Field(discriminator="type"), BeforeValidator(_from_words)])
-
-
-if TYPE_CHECKING:
-    Output = Reduced | FinalValue | AtTime | AtEvent | EventTime | ScalarOutput | PythonOutput
-else:
-    Output = _AnyOutput
+Output = Annotated[
+    Reduced | FinalValue | AtTime | AtEvent | EventTime | ScalarOutput | PythonOutput,
+    Field(discriminator="type"),
+    BeforeValidator(_from_words),
+]
 
 
 def said_output(words: str) -> Output:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
-from nivel.files.target import write_text, written
+from nivel.files.target import write_page, written
 from nivel.lazy import dataclass, field, provided, xarray
 from nivel.machine.core.vectors import Array
 from nivel.results.curve import TOLD, curve, extreme, integral, integral_of_magnitude, peak, rms
@@ -132,8 +132,7 @@ class Efforts(Tabulated):
 
     def report(self, path: str | PathLike[str], *, force: bool = True) -> Path:
         """Write the page: efforts, power, peaks and work."""
-        write_text(provided("efforts")(self), path, "report", force=force)
-        return Path(path)
+        return write_page(provided("efforts")(self), path, force=force)
 
     def __str__(self) -> str:
         lines = [

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.extras import needed
-from nivel.files.target import write_text
+from nivel.files.target import write_page
 from nivel.known import Inline, Result
 from nivel.lazy import dataclass, field, nivel, provided, scipy, xarray
 from nivel.machine.core.vectors import Array, Complex
@@ -323,8 +323,7 @@ class LinearModel(Tabulated):
 
     def report(self, path: str | PathLike[str], *, force: bool = True) -> Path:
         """Write the page of the analysis: eigenvalues, modes, frequency response."""
-        write_text(provided("linear model")(self), path, "report", force=force)
-        return Path(path)
+        return write_page(provided("linear model")(self), path, force=force)
 
     def _need_ports(self) -> None:
         missing = [word for word, names in (("inputs", self.inputs), ("outputs", self.outputs)) if not names]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
-from nivel.files.target import write_text
+from nivel.files.target import write_page
 from nivel.lazy import dataclass, field, provided, scipy, xarray
 from nivel.machine.core.vectors import Array, Complex
 from nivel.machine.units.quantity import read_quantity
@@ -160,8 +160,7 @@ class LinearSweep:
 
     def report(self, path: str | PathLike[str], orders: Sequence[float] = ()) -> Path:
         """Write a page: frequencies, damping and the paths of the eigenvalues."""
-        write_text(provided("linear sweep")(self, orders), path, "report", force=True)
-        return Path(path)
+        return write_page(provided("linear sweep")(self, orders), path)
 
     def save(self, path: str | PathLike[str], *, force: bool = False) -> Path:
         """Write the numbers as NetCDF. Raises ModelError where the file exists and `force` is not given."""

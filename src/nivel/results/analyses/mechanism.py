@@ -10,7 +10,7 @@ import numpy as np
 
 from nivel.elements.joints import drawn
 from nivel.errors import Fault, ModelError
-from nivel.files.target import write_text
+from nivel.files.target import write_page
 from nivel.known import MachineRecord, Result
 from nivel.lazy import dataclass, field, provided, xarray
 from nivel.machine.core.vectors import Array
@@ -322,8 +322,7 @@ class Studies:
 
     def report(self, path: str | PathLike[str]) -> Path:
         """Write a page with the curves."""
-        write_text(provided("mechanism")(self), path, "report", force=True)
-        return Path(path)
+        return write_page(provided("mechanism")(self), path)
 
 
 def add_studies(result: Result, angles: Sequence[Transmission], points: Sequence[Point]) -> Studies | None:

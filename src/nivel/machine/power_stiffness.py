@@ -10,7 +10,7 @@ from nivel.machine.units import quantity
 from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.dimension import KINDS, Dimension, described, is_angular, without_angle
 from nivel.machine.units.measure import measure
-from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Parameters
+from nivel.machine.units.tree import ExpressionError, Parameters
 
 _HERTZ: Final = 1.5
 
@@ -52,12 +52,8 @@ def _read(value: Any, info: ValidationInfo) -> float:
     exponent = _HERTZ if exponent is None else exponent
     kind = kind_for(data.get("coordinate"), COORDINATE) if "coordinate" in data else COORDINATE[0]
     pairs = tuple(pair for pair in zip(COORDINATE_EFFORT, COORDINATE, strict=True) if pair[1] in kind)
-    try:
+    with quantity.told(value, quantity.parameters_of(info)):
         number = read_power_stiffness(value, pairs, exponent, quantity.parameters_of(info))
-    except FaultyParameterError:
-        raise quantity.reported() from None
-    except ExpressionError as problem:
-        raise quantity.expression_fault(problem, value, quantity.parameters_of(info)) from None
     if number <= 0:
         raise quantity.fault(f"a stiffness greater than zero was expected, got {quantity.shown(value)}")
     return number

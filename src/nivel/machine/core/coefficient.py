@@ -15,23 +15,24 @@ from pydantic import (
     ValidationError,
     ValidationInfo,
 )
-from pydantic_core import CoreSchema, InitErrorDetails, core_schema
+from pydantic_core import CoreSchema, core_schema
 
 from nivel.lazy import dataclass
 from nivel.machine.given import ManyNumbers, OneNumber
 from nivel.machine.laws.time_function import OneFunction, TimeFunction, Varying, written
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import (
+    UNREAD,
     Quantity,
-    expression_fault,
     fault,
+    line_of,
     listed,
     parameters_of,
     read_quantity,
-    reported,
     shown,
+    told,
+    unread,
 )
-from nivel.machine.units.tree import ExpressionError, FaultyParameterError
 from nivel.machine.uses.coordinate_reference import kind_of
 from nivel.words.arguments import plain
 
@@ -99,13 +100,9 @@ class OfCoordinate:
     bound: Bound = ""
 
     def read(self, value: Any, info: ValidationInfo) -> float:
-        try:
+        with told(value, parameters_of(info)):
             kind = kind_for((info.data or {}).get("coordinate"), self.kinds)
             number = read_quantity(value, kind, parameters_of(info))
-        except FaultyParameterError:
-            raise reported() from None
-        except ExpressionError as problem:
-            raise expression_fault(problem, value, parameters_of(info)) from None
         if self.bound == "positive" and number <= 0:
             raise fault(f"a value greater than zero was expected, got {shown(value)}")
         return _not_negative(number) if self.bound == "not negative" else number
@@ -134,14 +131,8 @@ def columns_of_coordinate(kinds: Mapping[str, tuple[str, str]]) -> Callable[[Any
             for at, entry in enumerate(entries if isinstance(entries, list | tuple) else ()):
                 try:
                     read_quantity(entry, kind, parameters_of(info))
-                except FaultyParameterError:
-                    lines.append(InitErrorDetails(type=reported(), loc=(column, at), input=None))
-                except ExpressionError as problem:
-                    lines.append(
-                        InitErrorDetails(
-                            type=expression_fault(problem, entry, parameters_of(info)), loc=(column, at), input=None
-                        )
-                    )
+                except UNREAD as problem:
+                    lines.append(line_of((column, at), unread(problem, entry, parameters_of(info))))
         if lines:
             raise ValidationError.from_exception_data("table", lines)
         return table

@@ -12,7 +12,7 @@ from pydantic_core import InitErrorDetails
 from nivel.machine.core.record import unknown_word
 from nivel.machine.laws.python_source import source_of
 from nivel.machine.units import quantity
-from nivel.machine.units.tree import TIME, ExpressionError, FaultyParameterError, Parameters, Signal, Time, varies
+from nivel.machine.units.tree import TIME, ExpressionError, Parameters, Signal, Time, varies
 from nivel.words.arguments import checked_arguments, checked_fields
 
 KEYS: Final = ("source", "function", "arguments", "file")
@@ -117,15 +117,8 @@ def _read_arguments(
     for at, entry in enumerate(given):
         try:
             arguments.append(_read_argument(entry, parameters, local))
-        except FaultyParameterError:
-            lines.append(InitErrorDetails(type=quantity.reported(), loc=("arguments", at), input=None))
-            arguments.append(0.0)
-        except ExpressionError as problem:
-            lines.append(
-                InitErrorDetails(
-                    type=quantity.expression_fault(problem, entry, parameters), loc=("arguments", at), input=None
-                )
-            )
+        except quantity.UNREAD as problem:
+            lines.append(quantity.line_of(("arguments", at), quantity.unread(problem, entry, parameters)))
             arguments.append(0.0)
     return arguments
 
@@ -234,4 +227,4 @@ def _returns(node: ast.AST) -> Iterator[ast.Return]:
 
 
 def _line(place: tuple[str | int, ...], message: str, *, at_key: bool = False) -> InitErrorDetails:
-    return InitErrorDetails(type=quantity.fault(message, at_key=at_key), loc=place, input=None)
+    return quantity.line_of(place, quantity.fault(message, at_key=at_key))

@@ -20,7 +20,7 @@ from nivel.machine.units.derivative import derivative
 from nivel.machine.units.functions import INTERPOLATIONS
 from nivel.machine.units.measure import measure, readings
 from nivel.machine.units.slips import is_tonne_compared
-from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Node, Parameters, varies
+from nivel.machine.units.tree import ExpressionError, Node, Parameters, varies
 
 TimeFunction = float | Table | Expression | PythonLaw
 SomeFunction = float | str | Mapping[str, Any] | Table | Expression | PythonLaw  # what is read as one
@@ -170,12 +170,8 @@ class Varying:
 
     def read(self, value: Any, info: ValidationInfo) -> TimeFunction:
         parameters = quantity.parameters_of(info)
-        try:
+        with quantity.told(value, parameters):
             return read_time_function(value, self.kind, parameters, self.local, smooth=self.smooth)
-        except FaultyParameterError:
-            raise quantity.reported() from None
-        except ExpressionError as problem:
-            raise quantity.expression_fault(problem, value, parameters) from None
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         serialization = core_schema.plain_serializer_function_ser_schema(written)

@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 from pydantic import ValidationError
-from pydantic_core import InitErrorDetails, PydanticCustomError
+from pydantic_core import InitErrorDetails
 
 from nivel.machine.core.record import unknown_word
 from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, evaluate, render
@@ -26,16 +26,17 @@ from nivel.machine.units.functions import (
 from nivel.machine.units.measure import signal_dimensions
 from nivel.machine.units.quantity import (
     ANY,
+    UNREAD,
     Kind,
     bound_tree,
-    expression_fault,
     fault,
+    line_of,
     listed,
     read_quantity,
-    reported,
     shown,
+    unread,
 )
-from nivel.machine.units.tree import TIME, ExpressionError, FaultyParameterError, Node, Parameters, signals
+from nivel.machine.units.tree import TIME, Node, Parameters, signals
 from nivel.words.arguments import checked_arguments, checked_fields
 from nivel.words.wording import in_expressions
 
@@ -141,18 +142,18 @@ def _faults_of_words(given: Mapping[str, object], first: str, local: Collection[
     for word in given:
         if word in ("times", "points") and word != first:
             what = "`times` belong to a table of `time`" if word == "times" else "a table of `time` has `times`"
-            lines.append(_line((word,), fault(f"{what}; write `{first}`", at_key=True)))
+            lines.append(line_of((word,), fault(f"{what}; write `{first}`", at_key=True)))
         elif word not in keys:
-            lines.append(_line((str(word),), fault(unknown_word(str(word), keys, "key"), at_key=True)))
+            lines.append(line_of((str(word),), fault(unknown_word(str(word), keys, "key"), at_key=True)))
     of = given.get("of", TIME)
     if not isinstance(of, str) or not (of == TIME or of in local or SIGNAL_PATH.fullmatch(of)):
         symbols = "".join(f", `{symbol}`" for symbol in local)
         expected = f"`time`{symbols} or a symbol such as `hinge.angle`"
-        lines.append(_line(("of",), fault(f"{expected} was expected, got {shown(of)}")))
+        lines.append(line_of(("of",), fault(f"{expected} was expected, got {shown(of)}")))
     interpolation = given.get("interpolation", "linear")
     if interpolation not in INTERPOLATIONS:
         message = unknown_word(shown(interpolation).strip("`"), INTERPOLATIONS, "interpolation")
-        lines.append(_line(("interpolation",), fault(message)))
+        lines.append(line_of(("interpolation",), fault(message)))
     return lines
 
 
@@ -162,16 +163,14 @@ def _read_column(
     given = listed(given)
     if not isinstance(given, Sequence) or isinstance(given, str):
         message = f"`{word}` is missing" if given is None else f"a list was expected, got {shown(given)}"
-        lines.append(_line((word,), fault(message)))
+        lines.append(line_of((word,), fault(message)))
         return []
     column = []
     for at, entry in enumerate(given):
         try:
             column.append(read_quantity(entry, kind, parameters))
-        except FaultyParameterError:
-            lines.append(_line((word, at), reported()))
-        except ExpressionError as problem:
-            lines.append(_line((word, at), expression_fault(problem, entry, parameters)))
+        except UNREAD as problem:
+            lines.append(line_of((word, at), unread(problem, entry, parameters)))
     return column
 
 
@@ -180,28 +179,24 @@ def _faults_of_columns(
 ) -> list[InitErrorDetails]:
     if len(points) != len(values):
         counts = f"got {len(values)} and {len(points)}"
-        return [_line(("values",), fault(f"a table needs as many values as {first}; {counts}"))]
+        return [line_of(("values",), fault(f"a table needs as many values as {first}; {counts}"))]
     if not points:
-        return [_line((first,), fault(f"a table needs at least one {first.removesuffix('s')}"))]
+        return [line_of((first,), fault(f"a table needs at least one {first.removesuffix('s')}"))]
     unit = " s" if first == "times" else ""
     for at in range(1, len(points)):
         if points[at] <= points[at - 1]:
             order = f"{points[at]:g}{unit} does not come after {points[at - 1]:g}{unit}"
             if points[at] == points[at - 1]:
                 order += "; for a jump place them close together"
-            return [_line((first, at), fault(f"{first} increase; {order}"))]
+            return [line_of((first, at), fault(f"{first} increase; {order}"))]
     fewest = FEWEST[interpolation]
     if len(points) < fewest:
         wanted = {2: "two", 3: "three", 4: "four"}[fewest]
-        return [_line((first,), fault(f"a {interpolation} table needs at least {wanted} {first}, got {len(points)}"))]
+        return [line_of((first,), fault(f"a {interpolation} table needs at least {wanted} {first}, got {len(points)}"))]
     if misses_its_period(interpolation, values):
         ends = f"got {values[0]:g} and {values[-1]:g}"
-        return [_line(("values",), fault(f"a periodic table ends with the value with which it begins; {ends}"))]
+        return [line_of(("values",), fault(f"a periodic table ends with the value with which it begins; {ends}"))]
     return []
-
-
-def _line(place: tuple[str | int, ...], message: PydanticCustomError) -> InitErrorDetails:
-    return InitErrorDetails(type=message, loc=place, input=None)
 
 
 @checked_fields

@@ -15,29 +15,24 @@ from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import (
     ANY,
     constant_tree,
-    expression_fault,
     fault,
     listed,
     parameters_of,
     read_quantity,
-    reported,
     shown,
+    told,
 )
-from nivel.machine.units.tree import ExpressionError, FaultyParameterError, Parameters
+from nivel.machine.units.tree import ExpressionError, Parameters
 from nivel.machine.uses.coordinate_reference import CoordinateReference
 
 
 def _read(value: Any, info: ValidationInfo) -> float:
     parameters, units = parameters_of(info), info.data.get("units", "")
-    try:
+    with told(value):
         number = read_quantity(value, ANY, parameters)
         if not isinstance(value, str) or not units or measure(constant_tree(value, parameters)) is None:
             return number
         return number / _unit_of(value, units, parameters)
-    except FaultyParameterError:
-        raise reported() from None
-    except ExpressionError as problem:
-        raise expression_fault(problem, value) from None
 
 
 def _unit_of(text: str, units: str, parameters: Parameters) -> float:

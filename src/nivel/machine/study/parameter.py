@@ -45,6 +45,7 @@ class Between(Checked):
     """A number between bounds. Quantities are kept as they were written, and all measure the same."""
 
     quantities: ClassVar[tuple[str, ...]] = ("low", "high")
+    middle: ClassVar[str] = ""  # field whose value is that in the machine file where it is not given
     low: AnyQuantity | None = None
     high: AnyQuantity | None = None
 
@@ -71,11 +72,11 @@ class Between(Checked):
     @property
     def needs_nominal(self) -> bool:
         """Whether the value in the machine file is needed."""
-        return False
+        return bool(self.middle) and getattr(self, self.middle) is None
 
     def with_nominal(self, value: float) -> Self:
         """The same with the value [SI] in the machine file, where it is needed."""
-        return self
+        return self.replace(**{self.middle: value}) if self.needs_nominal else self
 
 
 class Range(Between):
@@ -126,6 +127,7 @@ class Normal(Between):
     """Normal distribution, cut off at bounds if there are any."""
 
     quantities: ClassVar[tuple[str, ...]] = ("mean", "deviation", "low", "high")
+    middle: ClassVar[str] = "mean"
     type: Literal["normal"]
     mean: AnyQuantity | None = Field("mean", default=None, absent=OF_FILE)
     deviation: AnyQuantity = Field("standard deviation")
@@ -137,13 +139,6 @@ class Normal(Between):
         yield from super().problems()
         if not si(self.deviation) > 0.0:
             yield Problem(("deviation",), f"a deviation above zero was expected, got {shown(self.deviation)}")
-
-    @property
-    def needs_nominal(self) -> bool:
-        return self.mean is None
-
-    def with_nominal(self, value: float) -> Self:
-        return self.replace(mean=value) if self.needs_nominal else self
 
 
 def _one_or_two(value: Any) -> Any:
@@ -157,6 +152,7 @@ class Tolerance(Between):
     """A nominal value with its tolerance: ± one number, or [below, above]."""
 
     quantities: ClassVar[tuple[str, ...]] = ("nominal", "below", "above")
+    middle: ClassVar[str] = "nominal"
     type: Literal["tolerance"]
     nominal: AnyQuantity | None = Field("nominal value", default=None, absent=OF_FILE)
     tolerance: Annotated[tuple[AnyQuantity, AnyQuantity] | AnyQuantity, BeforeValidator(_one_or_two)] = Field(
@@ -188,13 +184,6 @@ class Tolerance(Between):
         if self.nominal is None:
             return -INFINITE, INFINITE
         return si(self.nominal) - si(self.below), si(self.nominal) + si(self.above)
-
-    @property
-    def needs_nominal(self) -> bool:
-        return self.nominal is None
-
-    def with_nominal(self, value: float) -> Self:
-        return self.replace(nominal=value) if self.needs_nominal else self
 
     @property
     def is_lost(self) -> bool:

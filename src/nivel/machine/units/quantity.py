@@ -7,12 +7,13 @@ file come in through the validation context: ``{"parameters": {"radius": Number(
 
 import numbers
 import re
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import contextmanager
 from functools import partial
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
-from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError, core_schema
 
 from nivel.lazy import dataclass
 from nivel.machine.given import OneNumber, ThreeNumbers
@@ -45,6 +46,9 @@ def fault(message: str, *, at_key: bool = False, lacking: "LackingUnitError | No
     """
     more = {} if lacking is None else {"lacking": lacking}
     return PydanticCustomError(FAULT, "{message}", {"message": message, "at_key": at_key, **more})
+
+
+UNREAD = (tree.ExpressionError, tree.FaultyParameterError)  # what reading a text raises
 
 
 def reported() -> PydanticCustomError:
@@ -270,12 +274,8 @@ class Quantity:
     positive: bool = False
 
     def read(self, value: Any, info: ValidationInfo) -> float:
-        try:
+        with told(value, parameters_of(info)):
             number = read_quantity(value, self.kind, parameters_of(info))
-        except tree.FaultyParameterError:
-            raise reported() from None
-        except tree.ExpressionError as problem:
-            raise expression_fault(problem, value, parameters_of(info)) from None
         if self.positive and number <= 0:
             instead = MASSLESS if self.kind == "mass" and number == 0 else ""
             article = KINDS[self.kind][0] if isinstance(self.kind, str) else "a number"
@@ -296,6 +296,25 @@ class Quantity:
         if self.positive:
             number["exclusiveMinimum"] = 0
         return {"anyOf": [number, {"type": "string"}], "description": meaning, "takes": meaning}
+
+
+@contextmanager
+def told(value: object, parameters: tree.Parameters | None = None) -> Iterator[None]:
+    """Faults of a text `value` that is read inside are told as those of a field. parameters : as of `expression_fault`"""
+    try:
+        yield
+    except UNREAD as problem:
+        raise unread(problem, value, parameters) from None
+
+
+def unread(problem: Exception, value: object, parameters: tree.Parameters | None = None) -> PydanticCustomError:
+    """`problem`, of UNREAD, with the text `value` that it is in; to be passed over where a parameter is at fault."""
+    return expression_fault(problem, value, parameters) if isinstance(problem, tree.ExpressionError) else reported()
+
+
+def line_of(place: tuple[str | int, ...], problem: PydanticCustomError) -> InitErrorDetails:
+    """A fault at a place of a record."""
+    return InitErrorDetails(type=problem, loc=place, input=None)
 
 
 def expression_fault(

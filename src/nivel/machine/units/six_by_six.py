@@ -5,11 +5,9 @@ from typing import Annotated, Any, Final
 
 import numpy as np
 from pydantic import PlainSerializer, PlainValidator, ValidationError, ValidationInfo, WithJsonSchema
-from pydantic_core import InitErrorDetails
 
 from nivel.machine.core.vectors import Array
 from nivel.machine.units import quantity
-from nivel.machine.units.tree import ExpressionError, FaultyParameterError
 
 Diagonal = tuple[float, ...]
 Matrix = tuple[tuple[float, ...], ...]
@@ -72,21 +70,15 @@ def _read(entries: dict[tuple[int, ...], tuple[Any, quantity.Kind]], info: Valid
     for place, (value, kind) in entries.items():
         try:
             numbers.append(quantity.read_quantity(value, kind, quantity.parameters_of(info)))
-        except FaultyParameterError:
-            lines.append(InitErrorDetails(type=quantity.reported(), loc=place, input=None))
-        except ExpressionError as problem:
-            lines.append(
-                InitErrorDetails(
-                    type=quantity.expression_fault(problem, value, quantity.parameters_of(info)), loc=place, input=None
-                )
-            )
+        except quantity.UNREAD as problem:
+            lines.append(quantity.line_of(place, quantity.unread(problem, value, quantity.parameters_of(info))))
     if lines:
         raise ValidationError.from_exception_data("matrix", lines)
     return numbers
 
 
 def _at(place: tuple[int, ...], message: Any) -> ValidationError:
-    return ValidationError.from_exception_data("matrix", [InitErrorDetails(type=message, loc=place, input=None)])
+    return ValidationError.from_exception_data("matrix", [quantity.line_of(place, message)])
 
 
 def _count(value: Any) -> str:

@@ -24,13 +24,7 @@ from nivel.analysis.preparation.memory import in_one_piece
 from nivel.errors import Fault, ModelError, refuse
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.sink import Header, Sink
-from nivel.judge.before.refusals import (
-    deep_starts,
-    moved_nodes,
-    struck_nodes,
-    uncertain_loads,
-    unsettled_multipliers,
-)
+from nivel.judge.before.refusals import deep_starts, moved_nodes, struck_nodes, uncertain_loads, unsettled_multipliers
 from nivel.kernels.core.arrays import copied
 from nivel.kernels.record.record import Record
 from nivel.known import Beam

@@ -12,16 +12,7 @@ from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.time_function import Measured
 from nivel.machine.units.dimension import without_angle
 from nivel.machine.units.measure import measure
-from nivel.machine.units.quantity import (
-    ANY,
-    constant_tree,
-    fault,
-    listed,
-    parameters_of,
-    read_quantity,
-    shown,
-    told,
-)
+from nivel.machine.units.quantity import ANY, constant_tree, fault, listed, parameters_of, read_quantity, shown, told
 from nivel.machine.units.tree import ExpressionError, Parameters
 from nivel.machine.uses.coordinate_reference import CoordinateReference
 

@@ -5,12 +5,7 @@ from contextlib import suppress
 from typing import Any, Final
 
 from nivel.elements.joints import JOINTS
-from nivel.elements.joints.joint import (
-    COORDINATE_OF,
-    CoordinateRates,
-    CoordinateValues,
-    held_by,
-)
+from nivel.elements.joints.joint import COORDINATE_OF, CoordinateRates, CoordinateValues, held_by
 from nivel.machine.core.index import Index, Place, as_list, as_mapping, elements
 from nivel.machine.core.record import GROUND, Record, entry
 from nivel.machine.uses.coordinate_reference import Kind, UnknownCoordinateError, find

@@ -18,10 +18,11 @@ from nivel.elements.forces.springs import JointSpringDamper, SpringDamper, Three
 from nivel.elements.forces.terramechanics import Track
 from nivel.elements.forces.tyre import Tyre
 from nivel.files.placement import AXIAL_Z, POLAR_Z, Scene, by_rules
-from nivel.files.substitution import Linear, NotRepresentableError, mixed, negative, substituted
+from nivel.files.substitution import NotRepresentableError, mixed, negative, substituted
 from nivel.machine.core.element import Between, BetweenMany, Ends, ForceElement
 from nivel.machine.core.record import Record
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table, TimeFunction
+from nivel.machine.units.formula import LinearFunction
 
 Changes = dict[str, Any]
 _FUNCTIONS = (Expression, PythonLaw)
@@ -172,7 +173,9 @@ def _on_coordinate(force: JointSpringDamper | Motor | Servo | Stop | Friction, s
                 deflections, efforts = ([-each + 0.0 for each in reversed(column)] for column in force.table.points)
                 changes["table"] = force.table.replace(deflections=deflections, efforts=efforts)
             if force.law is not None:
-                turned = substituted(changes["law"], lambda path: Linear(((-1.0, path),)), local=("value", "rate"))
+                turned = substituted(
+                    changes["law"], lambda path: LinearFunction(((-1.0, path),)), local=("value", "rate")
+                )
                 changes = {"law": negative(turned)}
         case Stop():
             changes |= {

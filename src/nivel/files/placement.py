@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 from nivel.elements.beams.beam import Beam
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
-from nivel.files.substitution import Linear, NotRepresentableError, rewritten, same, substituted
+from nivel.files.substitution import NotRepresentableError, rewritten, same, substituted
 from nivel.lazy import dataclass, field
 from nivel.machine.bodies.body import Body
 from nivel.machine.core.marker import Marker
@@ -37,6 +37,7 @@ from nivel.machine.core.placement import marker_frame, placement
 from nivel.machine.core.record import GROUND, Record
 from nivel.machine.core.vectors import Array
 from nivel.machine.laws.time_function import TimeFunction
+from nivel.machine.units.formula import LinearFunction
 
 Triple = tuple[float, float, float]
 
@@ -174,18 +175,18 @@ class Scene:
             return False
         return not coordinate or coordinate.removesuffix("_rate") == opposite
 
-    def signal(self, path: str) -> Linear:
+    def signal(self, path: str) -> LinearFunction:
         """A signal of the part in terms of those of the placed part."""
         head, _, tail = path.partition(".")
         if head in self.joints and tail.removesuffix("_rate") in self.joints[head].coordinates:
-            return Linear(((-1.0, path),)) if self.is_opposite(path) else same(path)
+            return LinearFunction(((-1.0, path),)) if self.is_opposite(path) else same(path)
         if tail not in _QUANTITIES or not (head in self.markers or head in self.bodies):
             return same(path)
         kind, at = _QUANTITIES[tail]
         back = (self.placement.axial if kind == "w" else self.placement.polar).T[at]
         terms = [(float(factor), f"{head}.{kind}{axis}") for factor, axis in zip(back, "xyz", strict=True) if factor]
         offset = float(-(back @ self.placement.translation)) + 0.0 if kind == "" else 0.0
-        return Linear(tuple(terms), offset)
+        return LinearFunction(tuple(terms), offset)
 
     def varied(self, function: TimeFunction) -> TimeFunction:
         """A function of the part with the signals of the placed part.

@@ -10,9 +10,10 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.lazy import dataclass, replace
+from nivel.lazy import replace
 from nivel.machine.core.record import GROUND, Record, entry
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table, TimeFunction
+from nivel.machine.units.formula import LinearFunction, times
 
 _SIGNAL: Final = re.compile(r"(?<![\w.])[^\W\d]\w*\.[^\W\d]\w*")  # in an expression, where `-` is a minus sign
 
@@ -21,27 +22,12 @@ class NotRepresentableError(Exception):
     """No record of a machine says what would be needed."""
 
 
-@dataclass(frozen=True)
-class Linear:
-    """offset + Σ factor · signal."""
-
-    terms: tuple[tuple[float, str], ...]
-    offset: float = 0.0
-
-    def __str__(self) -> str:
-        """As arithmetic that binds like a single name."""
-        if self.offset == 0 and len(self.terms) == 1 and self.terms[0][0] == 1:
-            return self.terms[0][1]
-        parts = [_times(factor, path) for factor, path in self.terms]
-        return f"({' + '.join([*parts, repr(self.offset)] if self.offset else parts)})"
+Signals = Callable[[str], LinearFunction]
 
 
-Signals = Callable[[str], Linear]
-
-
-def same(path: str) -> Linear:
+def same(path: str) -> LinearFunction:
     """The signal as it is."""
-    return Linear(((1.0, path),))
+    return LinearFunction(((1.0, path),))
 
 
 def substituted(function: TimeFunction, signals: Signals, *, local: tuple[str, ...] = ()) -> TimeFunction:
@@ -79,7 +65,7 @@ def rewritten(
     return value
 
 
-def _table_of(table: Table, linear: Linear) -> Table:
+def _table_of(table: Table, linear: LinearFunction) -> Table:
     """A table over old = offset + factor · new, as one over new."""
     if len(linear.terms) != 1:
         raise NotRepresentableError(f"a table of `{table.of}` would have to be one of several signals here: {linear}")
@@ -147,11 +133,7 @@ def _sum(terms: Sequence[tuple[float, float | Expression]]) -> float | Expressio
 
 
 def _product(factor: float, function: float | Expression) -> str:
-    return _times(factor, f"({function.text})" if isinstance(function, Expression) else repr(float(function)))
-
-
-def _times(factor: float, text: str) -> str:
-    return text if factor == 1 else f"-{text}" if factor == -1 else f"{factor!r}*{text}"
+    return times(factor, f"({function.text})" if isinstance(function, Expression) else repr(float(function)))
 
 
 def _sum_of_tables(terms: Sequence[tuple[float, Table]], constant: float) -> Table:

@@ -28,8 +28,9 @@ from scipy.linalg import LinAlgError, eig, eigh, matrix_balance, norm
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
-from nivel.analysis.linearise.reduction import ROUND_OFF, Reduction, StateSpace
+from nivel.analysis.linearise.reduction import ROUND_OFF, Reduction
 from nivel.analysis.statics.linear import symmetric
+from nivel.elements.control.dynamics import LinearSystem
 from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Complex
 from nivel.system.system import Array
@@ -54,7 +55,7 @@ class Graded:
         return Graded(self.A[chosen], self.noise[chosen], self.basis[chosen])
 
 
-def graded(reduction: Reduction, space: StateSpace, signs: Array) -> Graded | None:
+def graded(reduction: Reduction, space: LinearSystem, signs: Array) -> Graded | None:
     """The equations of `space`, whose first states have these signs, in the basis of vibrations; None without a mass matrix for it,
     and for wheels that do not slip, whose places are more than their rates."""
     shapes = _shapes(reduction)

@@ -20,7 +20,7 @@ from nivel.analysis.linearise.ports import (
     transformation,
     transformed,
 )
-from nivel.analysis.linearise.reduction import Reduction, StateSpace, velocity_names
+from nivel.analysis.linearise.reduction import Reduction, velocity_names
 from nivel.analysis.linearise.rotation import rotating
 from nivel.analysis.linearise.sampled import at_rest, held_values, sampled_model, samples_of, unrest
 from nivel.analysis.linearise.validity import judged, kinks, let_slide, signed
@@ -28,6 +28,7 @@ from nivel.analysis.plan.plan import Methods, Plan, methods_of
 from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.prepared_state import Moment, Posture, at_posture, at_start, run_until
+from nivel.elements.control.dynamics import LinearSystem
 from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.judge.after.other_elements import other_elements
 from nivel.judge.after.report import assess
@@ -193,19 +194,19 @@ def _states(instant: Instant, reduction: Reduction) -> _States:
 
 
 def _with_samples(
-    space: StateSpace, inputs: Sequence[Input], instant: Instant, moving: int
-) -> tuple[list[Input], StateSpace]:
+    space: LinearSystem, inputs: Sequence[Input], instant: Instant, moving: int
+) -> tuple[list[Input], LinearSystem]:
     """The inputs, and sampled values that the machine reads."""
     facts = instant.system.states
     own = [k for k, fact in enumerate(facts) if fact.sampled and np.any(space.A[:, moving + k])]
     more = [Input(facts[k].result, facts[k].units, "state", (k,)) for k in own]
     B, D = (np.hstack([each, np.zeros((len(each), len(more)))]) for each in (space.B, space.D))
-    return [*inputs, *more], StateSpace(space.A, B, space.C, D)
+    return [*inputs, *more], LinearSystem(space.A, B, space.C, D)
 
 
 def _opened(
-    space: StateSpace, states: _States, inputs: Sequence[Input], moving: int, instant: Instant
-) -> tuple[StateSpace, _States, NDArray[np.intp]]:
+    space: LinearSystem, states: _States, inputs: Sequence[Input], moving: int, instant: Instant
+) -> tuple[LinearSystem, _States, NDArray[np.intp]]:
     """States of elements that are inputs become columns of B; also which states are left. moving : states before them.
 
     Left out are sampled states, and states on which nothing depends, as what a pump has delivered, but where an output shows them.
@@ -218,7 +219,7 @@ def _opened(
     B, D = space.B.copy(), space.D.copy()
     for column, k in taken.items():
         B[:, k], D[:, k] = space.A[:, column], space.C[:, column]
-    out = StateSpace(space.A[np.ix_(kept, kept)], B[kept], space.C[:, kept], D)
+    out = LinearSystem(space.A[np.ix_(kept, kept)], B[kept], space.C[:, kept], D)
     left = _States([states.names[k] for k in kept], [states.units[k] for k in kept], states.scale[kept])
     return out, left, kept
 
@@ -246,7 +247,7 @@ def _unrest_of_samples(machine: MachineRecord, instant: Instant) -> list[str]:
 def _sampled(
     machine: MachineRecord,
     reduction: Reduction,
-    whole: StateSpace,
+    whole: LinearSystem,
     states: _States,
     signs: Array,
     continuous: tuple[NDArray[np.intp], Array, Sequence[str]],

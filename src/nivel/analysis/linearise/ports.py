@@ -13,8 +13,9 @@ import numpy as np
 
 from nivel.analysis.assembly.instant import NOTHING, Instant, Lanes, frame_place, frame_velocity
 from nivel.analysis.linearise.eigenvalues import Eigen
-from nivel.analysis.linearise.reduction import Ports, StateSpace
+from nivel.analysis.linearise.reduction import Ports
 from nivel.elements.circuits.component import Component
+from nivel.elements.control.dynamics import LinearSystem
 from nivel.elements.facts import StateFact
 from nivel.elements.forces.actuators import Motor
 from nivel.errors import Fault, ModelError, refuse
@@ -357,7 +358,7 @@ def transformation(rows: Array, places: Sequence[int], scale: Array) -> tuple[Ar
     return T, replaced
 
 
-def transformed(space: StateSpace, T: Array) -> StateSpace:
+def transformed(space: LinearSystem, T: Array) -> LinearSystem:
     """The same equations for T x, without what is left of terms that cancel."""
     back: Array = np.asarray(np.linalg.inv(T), dtype=np.float64)
 
@@ -367,7 +368,7 @@ def transformed(space: StateSpace, T: Array) -> StateSpace:
             whole, size = whole @ each, size @ np.abs(each)
         return np.where(np.abs(whole) > ROUND_OFF * size, whole, 0.0)
 
-    return StateSpace(product(T, space.A, back), product(T, space.B), product(space.C, back), space.D)
+    return LinearSystem(product(T, space.A, back), product(T, space.B), product(space.C, back), space.D)
 
 
 def seen(found: Eigen, T: Array) -> Eigen:

@@ -20,6 +20,7 @@ from scipy.linalg import lstsq, qr
 
 from nivel.analysis.assembly.instant import Instant, Reader, Slopes
 from nivel.analysis.linearise.axes import TurnedAxes
+from nivel.elements.control.dynamics import LinearSystem
 from nivel.lazy import dataclass, replace
 from nivel.system.system import Array, System
 
@@ -39,16 +40,6 @@ class Ports:
     force: Array
     held: Array
     opened: NDArray[np.intp]
-
-
-@dataclass(frozen=True)
-class StateSpace:
-    """ẋ = A x + B u, y = C x + D u."""
-
-    A: Array
-    B: Array
-    C: Array
-    D: Array
 
 
 @dataclass(frozen=True)
@@ -226,7 +217,7 @@ class Reduction:
         """(f, m) change of all positions of the instant, not in turned axes, for a unit of each independent one."""
         return self.unturned(self.Zq)
 
-    def state_space(self) -> StateSpace:
+    def state_space(self) -> LinearSystem:
         """A, B, C, D for the states (s, w, x)."""
         own, free = self.instant, self.instant.free
         m, w, S, p = len(self.selected), len(self.moving), own.state_count, self.ports.force.shape[1]
@@ -241,7 +232,7 @@ class Reduction:
         rate = rate + self.shifted(v)
         whole = np.vstack([qdot[self.selected], rate[self.moving], xdot])
         count = m + w + S
-        return StateSpace(whole[:, :count], whole[:, count:], seen[:, :count], seen[:, count:])
+        return LinearSystem(whole[:, :count], whole[:, count:], seen[:, :count], seen[:, count:])
 
     @cached_property
     def _saddle(self) -> Array:

@@ -14,8 +14,9 @@ from nivel.analysis.assembly.instant import NOTHING, Instant, Lanes
 from nivel.analysis.assembly.unknown_groups import unknown_name
 from nivel.analysis.linearise.axes import Frames, candidates
 from nivel.analysis.linearise.ports import Catalogue, Input, Output
-from nivel.analysis.linearise.reduction import Reduction, StateSpace, velocity_names
+from nivel.analysis.linearise.reduction import Reduction, velocity_names
 from nivel.analysis.run.prepared_state import Moment
+from nivel.elements.control.dynamics import LinearSystem
 from nivel.kernels.core.status import OK
 from nivel.kernels.elements import friction as columns
 from nivel.kernels.record.record import NONE
@@ -274,7 +275,7 @@ def _advanced(motion: MotionEquations, t: float, y: Array, end: float, step: flo
 
 # of the square of the largest speed, in lengths of the machine and radians: accelerations that change a motion
 CHANGES = 1e-6
-Found = tuple[Reduction, Array, Array, StateSpace]
+Found = tuple[Reduction, Array, Array, LinearSystem]
 
 
 @dataclass(frozen=True)
@@ -288,7 +289,7 @@ class Judged:
     reduction: Reduction
     places: Array
     rates: Array
-    space: StateSpace
+    space: LinearSystem
     moves: bool
     unsteady: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
@@ -367,11 +368,11 @@ def nothing(_: Instant) -> Lanes:
     return np.zeros((0, len(NOTHING)))
 
 
-def signed(space: StateSpace, signs: Array) -> StateSpace:
+def signed(space: LinearSystem, signs: Array) -> LinearSystem:
     """The equations with these signs of the first states."""
     more = np.ones(len(space.A))
     more[: len(signs)] = signs
-    return StateSpace(more[:, None] * space.A * more, more[:, None] * space.B, space.C * more, space.D)
+    return LinearSystem(more[:, None] * space.A * more, more[:, None] * space.B, space.C * more, space.D)
 
 
 def _unrest(moment: Moment, instant: Instant, reduction: Reduction, A: Array) -> list[str]:

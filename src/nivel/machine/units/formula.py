@@ -45,6 +45,18 @@ class LinearFunction:
         """The paths of the signals, each once; `time` is none."""
         return tuple(dict.fromkeys(path for _, path in self.terms if path != TIME))
 
+    def __str__(self) -> str:
+        """As arithmetic that binds like a single name."""
+        if self.offset == 0 and len(self.terms) == 1 and self.terms[0][0] == 1:
+            return self.terms[0][1]
+        parts = [times(factor, path) for factor, path in self.terms]
+        return f"({' + '.join([*parts, repr(self.offset)] if self.offset else parts)})"
+
+
+def times(factor: float, text: str) -> str:
+    """The text of a multiple of what `text` is."""
+    return text if factor == 1 else f"-{text}" if factor == -1 else f"{factor!r}*{text}"
+
 
 def linear(*terms: tuple[float, str], offset: float = 0.0) -> LinearFunction:
     """offset + Σ factor · signal, without terms of factor zero."""

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.polynomial import polynomial
 
 from nivel.judge.after.checks.joints import OPENING
+from nivel.judge.after.checks.positions import Histories, Opening
 from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Actuated, Positions, Scales
 from nivel.known import Driver
@@ -152,20 +153,6 @@ class OfMotion:
 
 
 @dataclass(frozen=True)
-class Opened:
-    """How far joints are open in the motion, as a share of their scales."""
-
-    share: float
-
-
-@dataclass(frozen=True)
-class Held:
-    """First-order states that the motion does not have."""
-
-    states: tuple[str, ...]
-
-
-@dataclass(frozen=True)
 class Missing:
     """The largest share of the generalised forces that no effort gives, when [s], as which effort on which coordinate (empty: on none
     alone), and whether limits hold efforts back."""
@@ -196,24 +183,24 @@ def say_motion(found: OfMotion) -> Item:
     return Item("motion", found.verdict, f"{said} (the colour is that of the motion)")
 
 
-def look_at_joints(subject: Actuated) -> Opened | None:
+def look_at_joints(subject: Actuated) -> Opening | None:
     """The joint of this machine that the motion opens most; None where they are closed."""
     share = subject.efforts.violation
-    return None if share < OPENING.green else Opened(share)
+    return None if share < OPENING.green else Opening(share)
 
 
-def say_joints(found: Opened) -> Item:
+def say_joints(found: Opening) -> Item:
     """That it may be a motion of another machine."""
     said = f"Joints: the motion has joints open by {found.share:.3g} of their scales, so it is not quite one of this machine"
     return OPENING.item("violation", f"{said}: is it of another one?", found.share)
 
 
-def look_at_states(subject: Actuated) -> Held | None:
+def look_at_states(subject: Actuated) -> Histories | None:
     """States that keep their values of the start."""
-    return Held(subject.efforts.held) if subject.efforts.held else None
+    return Histories(subject.efforts.held) if subject.efforts.held else None
 
 
-def say_states(found: Held) -> Item:
+def say_states(found: Histories) -> Item:
     """What depends on them is wrong."""
     said = f"States: the motion has no history of {first_of(found.states, SHOWN)}: they keep their initial values"
     wrong = "and what forces make of them is not that of the motion; give the result of a run"

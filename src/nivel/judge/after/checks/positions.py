@@ -33,7 +33,7 @@ class Branches:
 
 @dataclass(frozen=True)
 class Histories:
-    """First-order states, which keep their values of the start."""
+    """First-order states that a motion does not have; they keep their values of the start."""
 
     states: tuple[str, ...]
 

@@ -3,6 +3,7 @@
 import base64
 import json
 import os
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +27,7 @@ from nivel.report.panels import panels, peak_reactions
 from nivel.report.picture import STYLE, machine_picture
 from nivel.report.story import assembly_lines, event_lines, facts, headline, settings_table, timing_table, trust_lines
 from nivel.report.strokes import joint_icon
+from nivel.results import trust
 from nivel.results.frames.stored import understood
 from nivel.results.scales import RULES
 from nivel.view.page import scene_html
@@ -179,21 +181,11 @@ def _record(result: Result) -> dict[str, Any]:
 
 
 def number(value: float, digits: int = 4) -> str:
-    """A number as it stands in a sentence or a table."""
-    if value == 0.0 or not np.isfinite(value):
-        return f"{value:g}"
-    if 1e-3 <= abs(value) < 1e6:
-        return f"{value:.{digits}g}" if abs(value) < 10.0**digits else f"{value:.0f}"
-    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
-    return f"{float(mantissa):g}e{int(exponent)}"
+    """A number as it stands in a table."""
+    return trust.number(value, digits, digits)
 
 
-def quantity(value: float, unit: str) -> str:
-    """A number with its unit for people: 32.5 kN, 122 kN m, 840 N."""
-    for factor, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
-        if abs(value) >= factor and np.isfinite(value) and abs(value) < 1e12:
-            return f"{value / factor:.4g} {prefix}{unit}"
-    return f"{number(value)} {unit}"
+quantity = partial(trust.quantity, digits=4, extreme=4)
 
 
 def _picture(result: Result, record: dict[str, Any]) -> str:

@@ -321,22 +321,22 @@ def worst(items: Iterable[Item]) -> Verdict:
     return "red" if "red" in found else "amber" if "amber" in found else "green"
 
 
-def number(value: float) -> str:
-    """Two significant digits for what is tiny or huge, three for the sizes one can picture."""
+def number(value: float, digits: int = 3, extreme: int = 2) -> str:
+    """So many significant digits for the sizes one can picture, `extreme` ones for what is tiny or huge."""
     if value == 0.0 or not math.isfinite(value):
         return f"{value:g}"
     if 1e-3 <= abs(value) < 1e6:
-        return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
-    mantissa, exponent = f"{value:.1e}".split("e")
+        return f"{value:.{digits}g}" if abs(value) < 10.0**digits else f"{value:.0f}"
+    mantissa, exponent = f"{value:.{extreme - 1}e}".split("e")
     return f"{float(mantissa):g}e{int(exponent)}"
 
 
-def quantity(value: float, unit: str) -> str:
-    """A number with its unit as people say it: 94 kJ, 1.25 MJ, 812 J."""
+def quantity(value: float, unit: str, digits: int = 3, extreme: int = 2) -> str:
+    """A number with its unit as people say it: 94 kJ, 1.25 MJ, 812 J. digits, extreme : as of `number`."""
     for factor, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
         if factor <= abs(value) < 1e12:
-            return f"{value / factor:.3g} {prefix}{unit}"
-    return f"{number(value)} {unit}"
+            return f"{value / factor:.{digits}g} {prefix}{unit}"
+    return f"{number(value, digits, extreme)} {unit}"
 
 
 def plain(value: Any) -> Any:

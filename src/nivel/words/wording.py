@@ -55,6 +55,11 @@ def first_of(names: Sequence[str], most: int, between: str = ", ", more: str = "
     return between.join(names[:most]) + rest
 
 
+def listed(names: Sequence[str]) -> str:
+    """`a`, `a and b`, `a, b and c`."""
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
 def seconds(value: float) -> str:
     """A time [s] in the unit that suits it: 31 ms, 3.9 µs, 2.5 s."""
     for factor, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "µs")):

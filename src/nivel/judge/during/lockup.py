@@ -19,6 +19,7 @@ from nivel.judge.during.stop import named_row, unit_of
 from nivel.kernels.output.observe import observe
 from nivel.lazy import dataclass
 from nivel.system.system import Array
+from nivel.words.wording import listed
 
 # How far beyond a failure a jam is looked for, in steps: methods that solve for accelerations fail some steps before it, and a driver may
 # be back within its reach a few steps after it.
@@ -59,9 +60,9 @@ class Jam:
     @property
     def message(self) -> str:
         """When and where the machine jams."""
-        held = f"{_listed(self.drivers)} {'are' if len(self.drivers) > 1 else 'is'} held by {_listed(self.joints)}"
-        held = held if self.drivers else f"{_listed(self.joints)} depend on each other"
-        places = f" There {_listed(self.places)}." if self.places else ""
+        held = f"{listed(self.drivers)} {'are' if len(self.drivers) > 1 else 'is'} held by {listed(self.joints)}"
+        held = held if self.drivers else f"{listed(self.joints)} depend on each other"
+        places = f" There {listed(self.places)}." if self.places else ""
         return (
             f"the machine jams at t = {self.time:.6g} s, in a singular position beyond which its joints cannot be closed: there {held}."
             f"{places} At t = {self.later:.6g} s {self.row} would be open by {self.gap}"
@@ -70,10 +71,10 @@ class Jam:
     @property
     def advice(self) -> str:
         """What to try."""
-        prescribed = f"what {_listed(self.drivers)} prescribe{'s' * (len(self.drivers) == 1)}"
+        prescribed = f"what {listed(self.drivers)} prescribe{'s' * (len(self.drivers) == 1)}"
         what = prescribed if self.drivers else "how they move with time"
         return (
-            f"Look at {what} against the lengths between {_listed(self.joints)}: let it stop or turn back before t = {self.time:.4g} s, or "
+            f"Look at {what} against the lengths between {listed(self.joints)}: let it stop or turn back before t = {self.time:.4g} s, or "
             "drive another coordinate. No step and no method goes on from there."
         )
 
@@ -130,10 +131,10 @@ def branching_joints(prepared: Prepared, time: float, y: Array) -> tuple[str, ..
 def branching_advice(joints: tuple[str, ...], step: float) -> tuple[str, str]:
     """(message, advice) of steps that shrink beside a singular position. step : the present one [s]."""
     return (
-        f"steps have shrunk to {step:.2g} s beside a singular position, where rows of {_listed(joints)} depend on each other: the motion "
+        f"steps have shrunk to {step:.2g} s beside a singular position, where rows of {listed(joints)} depend on each other: the motion "
         f"branches there, and a method that chooses its steps may turn into the other branch",
         f"A fixed step passes it by inertia, as `integrator: rk4`; so may a larger tolerance. To have one motion alone, keep "
-        f"{_listed(joints)} from coming into line, or add what decides there: a second crank, a spring, a limit.",
+        f"{listed(joints)} from coming into line, or add what decides there: a second crank, a spring, a limit.",
     )
 
 
@@ -214,7 +215,7 @@ class _Nearby:
         worst = int(np.argmax(violation / constraints.scale[: len(lost)]))
         return Jam(
             time=last,
-            joints=tuple(name for name in owners if name not in rows),
+            joints=tuple(name for name in owners if name not in rows) or ("the joints",),
             drivers=drivers,
             places=places,
             later=later,
@@ -236,8 +237,3 @@ class _Nearby:
                 turned = f" ({np.degrees(value):.6g}°)" if unit == "rad" else ""
                 name = system.layout.coordinates["joint_coordinate"][place]
                 yield f"{name} is {value:.6g} {unit}{turned}"
-
-
-def _listed(names: tuple[str, ...]) -> str:
-    """Names in a sentence."""
-    return " and ".join(filter(None, (", ".join(names[:-1]), names[-1]))) if names else "the joints"

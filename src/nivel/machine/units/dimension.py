@@ -54,15 +54,16 @@ def counts_turns(exponents: Dimension | None) -> bool:
 
 def symbol(exponents: Dimension) -> str:
     """The SI unit in writing: ``kg*m^2/s^2``, ``1/s``."""
-    above = [_factor(base, e) for base, e in zip(BASES, exponents, strict=True) if e > 0]
-    below = [_factor(base, -e) for base, e in zip(BASES, exponents, strict=True) if e < 0]
+    above = [powered(base, e) for base, e in zip(BASES, exponents, strict=True) if e > 0]
+    below = [powered(base, -e) for base, e in zip(BASES, exponents, strict=True) if e < 0]
     text = "*".join(above) or "1"
     if not below:
         return text
     return f"{text}/{below[0]}" if len(below) == 1 else f"{text}/({'*'.join(below)})"
 
 
-def _factor(base: str, exponent: float) -> str:
+def powered(base: str, exponent: float) -> str:
+    """The text of a power of a unit."""
     return base if exponent == 1 else f"{base}^{exponent:g}"
 
 

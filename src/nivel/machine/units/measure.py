@@ -5,7 +5,7 @@ A dimension by name belongs to signals that are quantities; a `rate` is of a len
 """
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from functools import reduce
 from itertools import islice, product
 from typing import Final
@@ -18,6 +18,7 @@ from nivel.machine.units.functions import FUNCTIONS
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.tree import CONSTANTS, ExpressionError, Name, Number, Parameters, leaves
 from nivel.machine.units.unit import UNITS
+from nivel.words.wording import listed
 
 _RADIAN: Final = dimension(rad=1)
 _SECOND: Final = dimension(s=1)
@@ -193,8 +194,8 @@ def name_notes(parameters: Mapping[str, object]) -> tuple[str, ...]:
     units = {name: value for name, value in numbers.items() if name in UNITS}
     notes = []
     if units:
-        which = _listed(f"`{name}` ({_shown(value)})" for name, value in units.items())
-        others, first = _listed(map(_other_meaning, units)), next(iter(units))
+        which = listed([f"`{name}` ({_shown(value)})" for name, value in units.items()])
+        others, first = listed([*map(_other_meaning, units)]), next(iter(units))
         are, they = (
             ("is the parameter", "it is the unit") if len(units) == 1 else ("are the parameters", "they are the units")
         )
@@ -229,11 +230,6 @@ def shared_names_hint(text: str, parameters: Parameters) -> str:
 
 def _other_meaning(name: str) -> str:
     return f"the constant {CONSTANTS[name]:.5g}" if name in CONSTANTS else _WORDS.get(name, f"the unit `{name}`")
-
-
-def _listed(texts: Iterable[str]) -> str:
-    *first, last = texts
-    return f"{', '.join(first)} and {last}" if first else last
 
 
 def _shown(number: Number) -> str:

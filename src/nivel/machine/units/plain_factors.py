@@ -18,7 +18,7 @@ import numpy as np
 from nivel.lazy import dataclass, field
 from nivel.machine.units import tree
 from nivel.machine.units.arithmetic import bind, evaluate
-from nivel.machine.units.dimension import BASES, KINDS, NONE, Dimension, without_angle
+from nivel.machine.units.dimension import BASES, KINDS, NONE, Dimension, powered, without_angle
 from nivel.machine.units.functions import FUNCTIONS
 from nivel.machine.units.grammar import parse, placed_tokens
 from nivel.machine.units.measure import Reading, readings
@@ -257,7 +257,7 @@ class _Walk:
             case tree.Negative(operand):
                 return self.of(operand, owner, arguments)
             case tree.Operation("**", base, exponent):
-                return self.of_power(base, exponent, owner, arguments)
+                return self.ofpowered(base, exponent, owner, arguments)
             case tree.Operation(symbol, left, right):
                 first, second = self.of(left, owner, arguments), self.of(right, owner, arguments)
                 return self.of_operation(symbol, (left, first), (right, second), owner)
@@ -285,7 +285,7 @@ class _Walk:
         leaf = problem.leaf_of.get(id(name))
         return None if leaf is None else self.chosen.get(leaf)
 
-    def of_power(
+    def ofpowered(
         self, base: tree.Node, exponent: tree.Node, owner: str, arguments: Mapping[str, Measured] | None
     ) -> Measured:
         its, power = self.of(base, owner, arguments), self.of(exponent, owner, arguments)
@@ -473,12 +473,8 @@ def _joined(factors: Iterable[tuple[str, float]]) -> str:
     text = ""
     for base, exponent in factors:
         after = text.rpartition(" ")[2].rpartition("*")[2]
-        text += ("" if not text else " " if after in UNITS or "^" in after else "*") + _power(base, exponent)
+        text += ("" if not text else " " if after in UNITS or "^" in after else "*") + powered(base, exponent)
     return text
-
-
-def _power(base: str, exponent: float) -> str:
-    return base if exponent == 1 else f"{base}^{exponent:g}"
 
 
 def _leaf_tokens(text: str) -> list[int]:

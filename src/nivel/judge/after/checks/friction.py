@@ -18,7 +18,7 @@ from nivel.results.frames.contents import own_units
 from nivel.results.scales import Readable, machine_size, span
 from nivel.results.trust import Item
 from nivel.system.system import Array
-from nivel.words.wording import first_of
+from nivel.words.wording import first_of, listed
 
 # A rate below this share of the largest one of the run, and of the machine's size or a radian once in the run, is none.
 STILL = 1e-9
@@ -192,7 +192,7 @@ def shared_loads(result: Readable, held: Sequence[Held]) -> tuple[Shared, ...]:
 def in_words(shared: Shared) -> str:
     """Who holds which coordinates, and when."""
     when = first_of([f"{first:.6g} to {last:.6g} s" for first, last in shared.spans], SHOWN, more="times more")
-    return f"{_listed(shared.holders)} hold {_listed(shared.coordinates)} at rest together (t = {when})"
+    return f"{listed(shared.holders)} hold {listed(shared.coordinates)} at rest together (t = {when})"
 
 
 def still(result: Readable, coordinate: str, share: float) -> NDArray[np.bool_]:
@@ -217,11 +217,6 @@ def _prescriber(held: Held) -> str:
     if not held.drivers:
         return ", ".join(held.others)
     return f"driver{'s' * (len(held.drivers) > 1)} {', '.join(held.drivers)}"
-
-
-def _listed(names: Sequence[str]) -> str:
-    """`a`, `a and b`, `a, b and c`."""
-    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
 def loads_held_together(result: Readable, frictions: Sequence[Sticking]) -> tuple[Shared, ...]:

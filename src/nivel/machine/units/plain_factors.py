@@ -257,7 +257,7 @@ class _Walk:
             case tree.Negative(operand):
                 return self.of(operand, owner, arguments)
             case tree.Operation("**", base, exponent):
-                return self.ofpowered(base, exponent, owner, arguments)
+                return self.of_power(base, exponent, owner, arguments)
             case tree.Operation(symbol, left, right):
                 first, second = self.of(left, owner, arguments), self.of(right, owner, arguments)
                 return self.of_operation(symbol, (left, first), (right, second), owner)
@@ -285,7 +285,7 @@ class _Walk:
         leaf = problem.leaf_of.get(id(name))
         return None if leaf is None else self.chosen.get(leaf)
 
-    def ofpowered(
+    def of_power(
         self, base: tree.Node, exponent: tree.Node, owner: str, arguments: Mapping[str, Measured] | None
     ) -> Measured:
         its, power = self.of(base, owner, arguments), self.of(exponent, owner, arguments)

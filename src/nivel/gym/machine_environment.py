@@ -12,7 +12,7 @@ from nivel.analysis.run.stepping import Simulation, Snapshot
 from nivel.api import Machine
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.machine.laws.varying_value import Expression
-from nivel.machine.units.quantity import expression_fault, read_quantity
+from nivel.machine.units.quantity import asked
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.result import Result
 from nivel.words.wording import shown, unknown_word
@@ -178,10 +178,7 @@ def _ranges(machine: Machine, vary: Mapping[str, Sequence[float | str]]) -> dict
 
 def _time(name: str, given: float | str) -> float:
     """A time [s] above zero. Raises ModelError."""
-    try:
-        value = read_quantity(given, "time", {})
-    except ExpressionError as problem:
-        raise ModelError(Fault.at(name, expression_fault(problem, given).message())) from None
+    value = asked(name, given, "time")
     if not 0.0 < value < np.inf:
         raise ModelError(Fault.at(name, f"a time above zero was expected, got {shown(given)}"))
     return value

@@ -11,7 +11,7 @@ from nivel.lazy import dataclass
 from nivel.report.beam_shapes import beam_nodes
 from nivel.results.frames.summary import in_words
 from nivel.results.trust import NOT_VERIFIED, Trust, Verdict
-from nivel.words.wording import set_in_motion
+from nivel.words.wording import counted, set_in_motion
 
 SHOWN_CHANGES = 6  # bodies that the assembly changed; more are counted
 SHOWN_EVENTS = 20  # likewise
@@ -116,7 +116,7 @@ def _reached(result: Result) -> str:
     if not len(time):
         return "nothing was computed"
     if result.is_statics:
-        return f"{_plural(len(time), 'equilibrium', 'equilibria')} from t = {_seconds(float(time[0]))} to {_seconds(float(time[-1]))}"
+        return f"{counted(len(time), 'equilibrium', 'equilibria')} from t = {_seconds(float(time[0]))} to {_seconds(float(time[-1]))}"
     return f"{_seconds(float(time[-1] - time[0]))} simulated"
 
 
@@ -125,15 +125,15 @@ def facts(result: Result) -> list[str]:
     count = {dim: len(result.coordinates.get(dim, ())) for dim in ("body", "joint")}
     nodes = beam_nodes(result)
     solid = count["body"] - sum(map(len, nodes.values()))
-    out = [_plural(solid, "body", "bodies")] if solid or not nodes else []
-    out += [_plural(len(nodes), "beam", "beams")] if nodes else []
-    out.append(_plural(count["joint"], "joint", "joints"))
+    out = [counted(solid, "body", "bodies")] if solid or not nodes else []
+    out += [counted(len(nodes), "beam")] if nodes else []
+    out.append(counted(count["joint"], "joint"))
     for section in ("coupling", "driver", "force", "sensor"):
         named = {name.split(".")[1] for name in result.variables if name.startswith(f"{section}.")}
-        out += [_plural(len(named), section, f"{section}s")] if named else []
+        out += [counted(len(named), section)] if named else []
     degrees = result.trust.degrees_of_freedom
     if degrees is not None:
-        out.append(_plural(degrees, "degree of freedom", "degrees of freedom"))
+        out.append(counted(degrees, "degree of freedom", "degrees of freedom"))
     settings = result.settings
     if isinstance(settings.get("step"), int | float):
         out.append(f"step {_seconds(float(settings['step']))}")
@@ -247,10 +247,6 @@ def _seconds(value: float) -> str:
 def _took(seconds: float) -> str:
     """A computing time, to three digits."""
     return _seconds(float(f"{seconds:.3g}"))
-
-
-def _plural(count: int, one: str, many: str) -> str:
-    return f"{count} {one if count == 1 else many}"
 
 
 def _sentence(text: str) -> str:

@@ -56,7 +56,7 @@ def lines(comparison: Comparison) -> list[str]:
     out = _failures(comparison)
     if comparison.rows:
         words = ", ".join([*comparison.common, simulated(comparison)])
-        out.append(f"all: {words}; times are the least of {_plural(comparison.repeat, 'run')}")
+        out.append(f"all: {words}; times are the least of {wording.counted(comparison.repeat, 'run')}")
     out += stops(comparison)
     out += [
         f"reference: {each.name}, its own error {number(each.error, 2)} ({each.how})" for each in comparison.references
@@ -124,7 +124,7 @@ def as_text(comparison: Comparison) -> str:
         ).rstrip()
         for row in cells
     ]
-    head = f"<Comparison of {comparison.machine}: {_plural(len(comparison.rows), 'cell')}>"
+    head = f"<Comparison of {comparison.machine}: {wording.counted(len(comparison.rows), 'cell')}>"
     return "\n".join([head, *table, *lines(comparison)])
 
 
@@ -191,7 +191,3 @@ def _failures(comparison: Comparison) -> list[str]:
 def fineness(row: Row) -> str:
     """The step or the tolerance of a row."""
     return seconds(row.step) if row.step is not None else number(row.tolerance, 2)
-
-
-def _plural(count: int, word: str) -> str:
-    return f"{count} {word if count == 1 else f'{word}s'}"

@@ -60,6 +60,11 @@ def listed(names: Sequence[str]) -> str:
     return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
+def counted(count: int, one: str, many: str = "") -> str:
+    """`1 joint`, `2 joints`, or `2 bodies` where the plural has a word of its own."""
+    return f"{count} {one if count == 1 else many or f'{one}s'}"
+
+
 def seconds(value: float) -> str:
     """A time [s] in the unit that suits it: 31 ms, 3.9 µs, 2.5 s."""
     for factor, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "µs")):

@@ -10,8 +10,7 @@ from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.newmark.alpha_constants import CHOSEN_STEPS, FIXED_STEPS, generalised_alpha, hht, newmark
 from nivel.lazy import dataclass, replace
 from nivel.machine.settings.run import Corrector, Penalty, SimulationSettings
-from nivel.machine.units.quantity import expression_fault, read_quantity, shown
-from nivel.machine.units.tree import ExpressionError
+from nivel.machine.units.quantity import asked, shown
 from nivel.methods import chooses
 from nivel.model import Model
 from nivel.motion.catalogue import FORMULATIONS
@@ -159,10 +158,7 @@ def with_usual_frames(machine: M) -> M:
 
 def waiting_time(name: str, value: float | str) -> float:
     """A time [s] that the option `name` gives as a number or a text; zero is none to wait. Raises ModelError."""
-    try:
-        seconds = read_quantity(value, "time", {})
-    except ExpressionError as problem:
-        raise ModelError(Fault.at(name, expression_fault(problem, value).message())) from None
+    seconds = asked(name, value, "time")
     if seconds < 0.0:
         raise ModelError(Fault.at(name, f"a time was expected, got {shown(value)}"))
     return seconds

@@ -15,6 +15,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError, core_schema
 
+from nivel.errors import Fault, ModelError
 from nivel.lazy import dataclass
 from nivel.machine.given import OneNumber, ThreeNumbers
 from nivel.machine.units import tree
@@ -296,6 +297,14 @@ class Quantity:
         if self.positive:
             number["exclusiveMinimum"] = 0
         return {"anyOf": [number, {"type": "string"}], "description": meaning, "takes": meaning}
+
+
+def asked(name: str, value: object, kind: Kind) -> float:
+    """A quantity that is given by this name, not in a file. Raises ModelError."""
+    try:
+        return read_quantity(value, kind, {})
+    except tree.ExpressionError as problem:
+        raise ModelError(Fault.at(name, expression_fault(problem, value).message())) from None
 
 
 @contextmanager

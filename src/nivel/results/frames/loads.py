@@ -4,12 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import ModelError
 from nivel.flexible.body.recovery import Cycle, rainflow
 from nivel.known import Result
 from nivel.lazy import xarray
-from nivel.machine.units.quantity import expression_fault, read_quantity
-from nivel.machine.units.tree import ExpressionError
+from nivel.machine.units.quantity import asked
 from nivel.results.curve import (
     TOLD,
     Curve,
@@ -88,7 +87,7 @@ def powers(result: Result, period: float | str | None = None) -> "xarray.Dataset
     lacks = open_numbers(history, highest, "peak power of {}", elements, "W")
     lacks += _open_work(done, both, elements)
     if period is not None:
-        period = _time(period)
+        period = asked("loads.period", period, "time")
         work = _of_cycle(history, period)
         lacks += _open_work(work, both, elements)
         values["work_per_cycle"] = (dims, work.value, {"units": "J"})
@@ -151,11 +150,3 @@ def _whole(found: list[Cycle]) -> list[Cycle]:
     whole = [each for each in found if each.count == 1.0]
     whole += [Cycle(a.range, 0.5 * (a.mean + b.mean), 1.0) for a, b in zip(halves[::2], halves[1::2], strict=True)]
     return sorted(whole)
-
-
-def _time(given: float | str) -> float:
-    """[s] of a number or a text with a unit. Raises ModelError."""
-    try:
-        return read_quantity(given, "time", {})
-    except ExpressionError as problem:
-        raise ModelError(Fault.at("loads.period", expression_fault(problem, given).message())) from None

@@ -10,6 +10,7 @@ import numpy as np
 from nivel.known import Result
 from nivel.lazy import dataclass
 from nivel.machine.core.vectors import Array
+from nivel.words.wording import counted
 
 COLOURS = {"green": "#1a7f4b", "amber": "#b26a00", "red": "#c0362c"}
 
@@ -76,14 +77,9 @@ def _outcome(result: Result) -> str:
 
 def _extent(result: Result) -> str:
     time = result.time
-    span = f"{time[0]:.6g} to {time[-1]:.6g} s in {_count(len(time), 'frame')}" if len(time) else "no frame"
-    parts = [_count(len(result.coordinates.get(dim, ())), dim) for dim in ("body", "joint")]
-    return ", ".join([span, *parts])
-
-
-def _count(number: int, word: str) -> str:
-    plural = {"body": "bodies"}.get(word, f"{word}s")
-    return f"{number} {word if number == 1 else plural}"
+    span = f"{time[0]:.6g} to {time[-1]:.6g} s in {counted(len(time), 'frame')}" if len(time) else "no frame"
+    bodies, joints = (len(result.coordinates.get(dim, ())) for dim in ("body", "joint"))
+    return ", ".join([span, counted(bodies, "body", "bodies"), counted(joints, "joint")])
 
 
 def _examples(result: Result) -> list[str]:

@@ -89,7 +89,7 @@ def linear_model(
     linear = judged(catalogue, moment, instant, inputs, shown)
     reduction, places, rates = linear.reduction, linear.places, linear.rates
     count = len(outputs)
-    whole = replace(linear.space, C=linear.space.C[:count], D=linear.space.D[:count])
+    whole = linear.space._replace(C=linear.space.C[:count], D=linear.space.D[:count])
     of_pressures = linear.space.C[count:]
     every, moving = _states(instant, reduction), len(places) + len(rates)
     if settings.inputs is None:

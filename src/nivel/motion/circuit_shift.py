@@ -16,6 +16,8 @@ for any J needs no more.
 import numpy as np
 
 from nivel.elements.circuits.ledger import TAKEN_IN, mass_apart
+from nivel.kernels.algebra.rows import add_times, clear
+from nivel.kernels.algebra.vectors import moment
 from nivel.kernels.bodies.floating_frame import modes_of
 from nivel.kernels.core.status import NOT_CONVERGED, OK
 from nivel.kernels.record.record import MODAL, NONE, OUTWARD, record_at
@@ -43,12 +45,10 @@ def load_unit(machine, q):
     for part in range(coordinates.start[q], coordinates.start[q + 1]):
         m = coordinates.part_marker[part]
         J, u, F = coordinates.J[part], markers.u[m], tree.wrench[markers.body[m]]
-        F[0] += J[3] + u[1] * J[2] - u[2] * J[1]
-        F[1] += J[4] + u[2] * J[0] - u[0] * J[2]
-        F[2] += J[5] + u[0] * J[1] - u[1] * J[0]
-        F[3] += J[0]
-        F[4] += J[1]
-        F[5] += J[2]
+        about_origin = moment(J, u)
+        for i in range(3):
+            F[i] += about_origin[i]
+            F[3 + i] += J[i]
 
 
 @stage
@@ -75,8 +75,7 @@ def hold_rows(machine):
     if saddle.row.shape[0] == 0:
         return OK
     b = saddle.b
-    for k in range(b.shape[0]):
-        b[k] = 0.0
+    clear(b)
     for k in range(saddle.blocks[0]):
         b[saddle.block[k, 0]] += saddle.W[k, 0] * saddle.z[saddle.block[k, 3], 0]
     status = solve_rows(machine, 0.0)
@@ -119,8 +118,7 @@ def apply_compliance(machine, project, respond):
 @stage
 def no_efforts(modal):
     """No efforts on modes."""
-    for j in range(modal.effort.shape[0]):
-        modal.effort[j] = 0.0
+    clear(modal.effort)
 
 
 @stage
@@ -209,15 +207,13 @@ def solve_in_order(matrix, b):
 @leaf
 def soften(tangent):
     """The last rows of `slopes` := compliance times `effort`: second derivatives of the coordinates."""
-    first, width = tangent.state.shape[0], tangent.slopes.shape[1]
+    first = tangent.state.shape[0]
     for c in range(tangent.coordinate.shape[0]):
         row = tangent.slopes[first + c]
-        for j in range(width):
-            row[j] = 0.0
+        clear(row)
         for d in range(tangent.coordinate.shape[0]):
             share, effort = tangent.compliance[c, d], tangent.effort[d]
-            for j in range(width):
-                row[j] += share * effort[j]
+            add_times(share, effort, row)
 
 
 @leaf

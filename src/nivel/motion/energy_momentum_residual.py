@@ -121,14 +121,8 @@ def change_momentum(machine, b, h):
     the change of its momenta per second into `residual.acceleration` (angular about the centre of mass; linear)."""
     record = record_at(machine)
     bodies, own = record.bodies, record.residual
-    A, J, c, start, y, base = (
-        bodies.A[b],
-        bodies.inertia_b[b],
-        bodies.c[b],
-        own.interval.start[b],
-        own.y,
-        record.newton.base,
-    )
+    A, J, c, start, y = bodies.A[b], bodies.inertia_b[b], bodies.c[b], own.interval.start[b], own.y
+    base = record.newton.base
     q, v = 7 * b, first_rate(record) + 6 * b
     k = half_turn(base[q + 3 : q + 7], y[q + 3 : q + 7])
     w_b = 4.0 * k[0] / h - base[v + 3], 4.0 * k[1] / h - base[v + 4], 4.0 * k[2] / h - base[v + 5]

@@ -4,6 +4,7 @@
 import numpy as np
 
 from nivel.kernels.algebra.rotation import rates_of_parameters
+from nivel.kernels.algebra.rows import copy
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_hook
 from nivel.kernels.record.record import CORRECT, EVALUATE, NONE, RESIDUAL, record_at
@@ -33,8 +34,7 @@ def evaluate(machine, t, y, ydot):
     if status == OK:
         write_balanced_rates(machine, y, ydot)
     tree = record_at(machine).tree
-    for k in range(tree.state.shape[0]):
-        tree.state[k] = y[k]
+    copy(y, tree.state)
     return status
 
 
@@ -88,8 +88,7 @@ def correct(machine, t, y):
         return OK
     factorised = False
     for attempt in range(MOST_CORRECTIONS + 1):
-        for i in range(y.shape[0]):
-            own.y[i] = y[i]
+        copy(y, own.y)
         status = call_hook(machine, RESIDUAL, 0, t)
         if status != OK:
             return status

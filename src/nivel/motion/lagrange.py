@@ -7,7 +7,8 @@ positive definite and changes neither the motion nor a multiplier. The normalisa
 import numpy as np
 
 from nivel.kernels.algebra.rotation import angular_velocity, rates_of_parameters, transformation
-from nivel.kernels.algebra.spatial import dot, multiply
+from nivel.kernels.algebra.spatial import cross, dot, multiply
+from nivel.kernels.algebra.vectors import axis, combined, minus, moment, plus, put, seen, times, turned
 from nivel.kernels.bodies.rigid import place_body
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import family
@@ -100,23 +101,15 @@ def factorise_body(bodies, G, b):
     transformation(theta, Gbar)
     mu = augmentation(bodies, b)
     for k in range(4):
-        g0, g1, g2 = Gbar[0, k], Gbar[1, k], Gbar[2, k]
-        j0 = J[0, 0] * g0 + J[0, 1] * g1 + J[0, 2] * g2
-        j1 = J[1, 0] * g0 + J[1, 1] * g1 + J[1, 2] * g2
-        j2 = J[2, 0] * g0 + J[2, 1] * g1 + J[2, 2] * g2
+        j = turned(J, axis(Gbar, k))
         for i in range(k, 4):
-            G[3 + i, 3 + k] = Gbar[0, i] * j0 + Gbar[1, i] * j1 + Gbar[2, i] * j2 + mu * theta[i] * theta[k]
+            G[3 + i, 3 + k] = dot(axis(Gbar, i), j) + mu * theta[i] * theta[k]
     root = np.sqrt(m)
     for k in range(4):
-        g0, g1, g2 = Gbar[0, k], Gbar[1, k], Gbar[2, k]
-        h0 = A[0, 0] * g0 + A[0, 1] * g1 + A[0, 2] * g2
-        h1 = A[1, 0] * g0 + A[1, 1] * g1 + A[1, 2] * g2
-        h2 = A[2, 0] * g0 + A[2, 1] * g1 + A[2, 2] * g2
-        Gbar[0, k], Gbar[1, k], Gbar[2, k] = h0, h1, h2
+        h = turned(A, axis(Gbar, k))
+        Gbar[0, k], Gbar[1, k], Gbar[2, k] = h
         # column k of m_Rθ over √m: -√m c × h
-        G[3 + k, 0] = -root * (c[1] * h2 - c[2] * h1)
-        G[3 + k, 1] = -root * (c[2] * h0 - c[0] * h2)
-        G[3 + k, 2] = -root * (c[0] * h1 - c[1] * h0)
+        put(G[3 + k], 0, times(-root, cross(c, h)))
     for i in range(3):
         G[i, i] = root
     for i in range(4):
@@ -153,14 +146,11 @@ def fill_row(machine, y, k):
             W[3 + i] = 2.0 * bodies.theta[b, i]
     else:
         J, u, w = constraints.J[part], record.markers.u[marker], bodies.omega[b]
-        f0, f1, f2 = J[0], J[1], J[2]
-        n0 = J[3] + u[1] * f2 - u[2] * f1
-        n1 = J[4] + u[2] * f0 - u[0] * f2
-        n2 = J[5] + u[0] * f1 - u[1] * f0
-        W[0], W[1], W[2] = f0, f1, f2
+        n = moment(J, u)
+        put(W, 0, J)
         for i in range(4):
-            W[3 + i] = n0 * G[0, 3 + i] + n1 * G[1, 3 + i] + n2 * G[2, 3 + i]
-        constraints.gamma[row] -= radial_rate(machine, y, b) * (n0 * w[0] + n1 * w[1] + n2 * w[2])
+            W[3 + i] = dot(n, axis(G, 3 + i))
+        constraints.gamma[row] -= radial_rate(machine, y, b) * dot(n, w)
 
 
 @stage
@@ -199,22 +189,14 @@ def whiten_force(machine, y, b):
     m = bodies.mass[b]
     kappa = radial_rate(machine, y, b)
     wc, ww = dot(w, c), dot(w, w)
-    z[0] = F[0] - m * (w[0] * wc - c[0] * ww + kappa * (w[1] * c[2] - w[2] * c[1]))
-    z[1] = F[1] - m * (w[1] * wc - c[1] * ww + kappa * (w[2] * c[0] - w[0] * c[2]))
-    z[2] = F[2] - m * (w[2] * wc - c[2] * ww + kappa * (w[0] * c[1] - w[1] * c[0]))
-    h0 = J[0, 0] * w_b[0] + J[0, 1] * w_b[1] + J[0, 2] * w_b[2]
-    h1 = J[1, 0] * w_b[0] + J[1, 1] * w_b[1] + J[1, 2] * w_b[2]
-    h2 = J[2, 0] * w_b[0] + J[2, 1] * w_b[1] + J[2, 2] * w_b[2]
+    put(z, 0, minus(F, times(m, plus(combined(wc, w, -ww, c), times(kappa, cross(w, c))))))
+    h = turned(J, w_b)
     # velocity moments in body axes, then all moments in global axes: C_θ and Q_θ share A Ḡ
-    v0 = w_b[1] * h2 - w_b[2] * h1 + kappa * h0
-    v1 = w_b[2] * h0 - w_b[0] * h2 + kappa * h1
-    v2 = w_b[0] * h1 - w_b[1] * h0 + kappa * h2
-    t0 = F[3] - (A[0, 0] * v0 + A[0, 1] * v1 + A[0, 2] * v2)
-    t1 = F[4] - (A[1, 0] * v0 + A[1, 1] * v1 + A[1, 2] * v2)
-    t2 = F[5] - (A[2, 0] * v0 + A[2, 1] * v1 + A[2, 2] * v2)
+    v = plus(cross(w_b, h), times(kappa, h))
+    torque = minus((F[3], F[4], F[5]), turned(A, v))
     radial = radial_force(record, augmentation(bodies, b), b)
     for i in range(4):
-        z[3 + i] = t0 * G[0, 3 + i] + t1 * G[1, 3 + i] + t2 * G[2, 3 + i] + radial * bodies.theta[b, i]
+        z[3 + i] = dot(torque, axis(G, 3 + i)) + radial * bodies.theta[b, i]
     forward(G, z)
 
 
@@ -340,13 +322,8 @@ def write_body(machine, b):
         square += theta[i] * theta[i]
         radial += theta[i] * thetaddot[i]
     radial *= augmentation(bodies, b)
-    moment_b = (
-        A[0, 0] * F[0] + A[1, 0] * F[1] + A[2, 0] * F[2],
-        A[0, 1] * F[0] + A[1, 1] * F[1] + A[2, 1] * F[2],
-        A[0, 2] * F[0] + A[1, 2] * F[1] + A[2, 2] * F[2],
-    )
     # Ḡᵀ = 2 Ēᵀ/|θ|², and θ̇ is ½ Ēᵀ ω̄
-    rates_of_parameters(theta, moment_b, value[3:7])
+    rates_of_parameters(theta, seen(A, F), value[3:7])
     for i in range(3):
         value[i] = F[3 + i]
     for i in range(4):

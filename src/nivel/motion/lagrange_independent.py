@@ -10,6 +10,7 @@ With friction in joints the accelerations come from `lagrange`, as in `nivel.mot
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.rows import subtract
 from nivel.kernels.bodies.rigid import load_weight
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import apply_forces, finish_forces
@@ -173,8 +174,7 @@ def evaluate(machine, t, y, ydot):
 def move_dependent(machine, y):
     """Positions: subtract D from the dependent ones."""
     D = record_at(machine).partition.D
-    for i in range(D.shape[0]):
-        y[i] -= D[i]
+    subtract(D, y)
 
 
 @entry(CORRECT)

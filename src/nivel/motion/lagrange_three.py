@@ -10,6 +10,7 @@ from nivel.kernels.algebra import euler_angles, rotation_vector
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.rotation import product
 from nivel.kernels.algebra.spatial import multiply, solve
+from nivel.kernels.algebra.vectors import put, seen
 from nivel.kernels.bodies.rigid import set_axes
 from nivel.kernels.core.status import OK, ROTATION_SINGULAR
 from nivel.kernels.record.hook import family
@@ -180,12 +181,8 @@ def write_bodies(machine):
     bodies, own = record.bodies, record.residual
     for b in range(bodies.mass.shape[0]):
         A, F, G = bodies.A[b], own.wrench[b], record.rotations.G[b]
-        n0 = A[0, 0] * F[0] + A[1, 0] * F[1] + A[2, 0] * F[2]
-        n1 = A[0, 1] * F[0] + A[1, 1] * F[1] + A[2, 1] * F[2]
-        n2 = A[0, 2] * F[0] + A[1, 2] * F[1] + A[2, 2] * F[2]
-        for i in range(3):
-            own.value[6 * b + i] = F[3 + i]
-            own.value[6 * b + 3 + i] = G[0, i] * n0 + G[1, i] * n1 + G[2, i] * n2
+        put(own.value, 6 * b, (F[3], F[4], F[5]))
+        put(own.value, 6 * b + 3, seen(G, seen(A, F)))
     write_rows(machine, 6 * bodies.mass.shape[0])
 
 

@@ -10,6 +10,7 @@ as ROS2, takes it explicitly then.
 
 import numpy as np
 
+from nivel.kernels.algebra.rows import clear
 from nivel.kernels.bodies.floating_frame import modes_of
 from nivel.kernels.record.record import MODAL, record_at
 from nivel.kernels.tree.flexible_whitening import accelerate_flexible, hand_efforts_inwards
@@ -29,8 +30,7 @@ def factorise_shifted_modes(machine, s):
         for j in range(n):
             shift[first + j] = s * (own.damping[f, j] + s * own.stiffness[f, j])
     status = factorise_flexible(machine, shift)
-    for j in range(shift.shape[0]):
-        shift[j] = 0.0
+    clear(shift)
     return status
 
 

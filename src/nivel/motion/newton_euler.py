@@ -8,7 +8,8 @@ diag(m, J̄_c): the same equations, and its factor costs nothing.
 """
 
 from nivel.kernels.algebra.rotation import normalise_parameters, rates_of_parameters
-from nivel.kernels.algebra.spatial import dot, multiply
+from nivel.kernels.algebra.spatial import cross, dot, multiply
+from nivel.kernels.algebra.vectors import minus, moment, put, seen, times, turned
 from nivel.kernels.bodies.constraint import constraint_rows
 from nivel.kernels.bodies.floating_dynamics import (
     BEND,
@@ -102,18 +103,9 @@ def whiten_rows(machine):
         part, marker, b = saddle.block[k, 1], saddle.block[k, 2], saddle.block[k, 3]
         if b >= bodies.mass.shape[0]:
             continue  # of the modes of a flexible body
-        f0, f1, f2 = J[part, 0], J[part, 1], J[part, 2]
-        u0 = markers.u[marker, 0] - bodies.c[b, 0]
-        u1 = markers.u[marker, 1] - bodies.c[b, 1]
-        u2 = markers.u[marker, 2] - bodies.c[b, 2]
-        n0 = J[part, 3] + u1 * f2 - u2 * f1
-        n1 = J[part, 4] + u2 * f0 - u0 * f2
-        n2 = J[part, 5] + u0 * f1 - u1 * f0
-        root, B, W = bodies.inverse_root_mass[b], saddle.G[b], saddle.W[k]
-        W[0], W[1], W[2] = root * f0, root * f1, root * f2
-        W[3] = B[0, 0] * n0 + B[0, 1] * n1 + B[0, 2] * n2
-        W[4] = B[1, 0] * n0 + B[1, 1] * n1 + B[1, 2] * n2
-        W[5] = B[2, 0] * n0 + B[2, 1] * n1 + B[2, 2] * n2
+        W, about_centre = saddle.W[k], moment(J[part], minus(markers.u[marker], bodies.c[b]))
+        put(W, 0, times(bodies.inverse_root_mass[b], J[part]))
+        put(W, 3, turned(saddle.G[b], about_centre))
 
 
 @stage
@@ -129,15 +121,8 @@ def whiten_forces(machine):
         for i in range(3):
             z[i] = root * (F[i] - m * (w[i] * wc - c[i] * ww))
         # moment about the centre of mass, global axes
-        t0 = F[3] - (c[1] * F[2] - c[2] * F[1])
-        t1 = F[4] - (c[2] * F[0] - c[0] * F[2])
-        t2 = F[5] - (c[0] * F[1] - c[1] * F[0])
-        h0 = J[0, 0] * w_b[0] + J[0, 1] * w_b[1] + J[0, 2] * w_b[2]
-        h1 = J[1, 0] * w_b[0] + J[1, 1] * w_b[1] + J[1, 2] * w_b[2]
-        h2 = J[2, 0] * w_b[0] + J[2, 1] * w_b[1] + J[2, 2] * w_b[2]
-        m0 = A[0, 0] * t0 + A[1, 0] * t1 + A[2, 0] * t2 - (w_b[1] * h2 - w_b[2] * h1)
-        m1 = A[0, 1] * t0 + A[1, 1] * t1 + A[2, 1] * t2 - (w_b[2] * h0 - w_b[0] * h2)
-        m2 = A[0, 2] * t0 + A[1, 2] * t1 + A[2, 2] * t2 - (w_b[0] * h1 - w_b[1] * h0)
+        torque = minus((F[3], F[4], F[5]), cross(c, F))
+        m0, m1, m2 = minus(seen(A, torque), cross(w_b, turned(J, w_b)))
         z[3] = K[0, 0] * m0
         z[4] = K[1, 0] * m0 + K[1, 1] * m1
         z[5] = K[2, 0] * m0 + K[2, 1] * m1 + K[2, 2] * m2
@@ -151,12 +136,7 @@ def unwhiten(bodies, saddle, b):
     alpha[0] = K[0, 0] * z[3] + K[1, 0] * z[4] + K[2, 0] * z[5]
     alpha[1] = K[1, 1] * z[4] + K[2, 1] * z[5]
     alpha[2] = K[2, 2] * z[5]
-    g0 = A[0, 0] * alpha[0] + A[0, 1] * alpha[1] + A[0, 2] * alpha[2]
-    g1 = A[1, 0] * alpha[0] + A[1, 1] * alpha[1] + A[1, 2] * alpha[2]
-    g2 = A[2, 0] * alpha[0] + A[2, 1] * alpha[1] + A[2, 2] * alpha[2]
-    a[0] = root * z[0] - (g1 * c[2] - g2 * c[1])
-    a[1] = root * z[1] - (g2 * c[0] - g0 * c[2])
-    a[2] = root * z[2] - (g0 * c[1] - g1 * c[0])
+    put(a, 0, minus(times(root, z), cross(turned(A, alpha), c)))
 
 
 @stage
@@ -297,9 +277,8 @@ def accelerate_bodies(machine):
     count = bodies.mass.shape[0]
     for b in range(count):
         A, x, v = bodies.A[b], own.acceleration[b], own.vdot[6 * b : 6 * b + 6]
-        for i in range(3):
-            x[i] = A[i, 0] * v[3] + A[i, 1] * v[4] + A[i, 2] * v[5]
-            x[3 + i] = v[i]
+        put(x, 0, turned(A, (v[3], v[4], v[5])))
+        put(x, 3, v)
     for j in range(flexible.p.shape[0]):
         flexible.pddot[j] = own.vdot[6 * count + j]
     call_hook(machine, MODES, MOVE_FRAMES, 0.0)
@@ -313,9 +292,8 @@ def write_bodies(machine):
     call_hook(machine, MODES, NEEDED, 0.0)
     for b in range(count):
         A, F = bodies.A[b], own.wrench[b]
-        for i in range(3):
-            own.value[6 * b + i] = F[3 + i]
-            own.value[6 * b + 3 + i] = A[0, i] * F[0] + A[1, i] * F[1] + A[2, i] * F[2]
+        put(own.value, 6 * b, (F[3], F[4], F[5]))
+        put(own.value, 6 * b + 3, seen(A, F))
     write_rows(machine, 6 * count + record.flexible.p.shape[0])
 
 

@@ -55,11 +55,7 @@ def _alike(stretch: float, bend_y: float, bend_z: float) -> Outline:
 
 
 def _i(section: IBeam) -> Outline:
-    y, z, web, inner = (
-        0.5 * section.width,
-        0.5 * section.height,
-        0.5 * section.web,
-        0.5 * section.height - section.flange,
-    )
+    y, z, web = 0.5 * section.width, 0.5 * section.height, 0.5 * section.web
+    inner = 0.5 * section.height - section.flange
     right = [(y, -z), (y, -inner), (web, -inner), (web, inner), (y, inner), (y, z)]
     return [*right, *((-a, -b) for a, b in right)]

@@ -71,12 +71,8 @@ def point_of_section(n, q, control):
     """What one point stores, loses and pulls. q : its columns."""
     share, weights, unstrained = q[SHARE], q[SLOPE : SLOPE + 4], q[STRAIN : STRAIN + 6]
     d, v = along_line(n, VECTOR, weights, WIDTH), along_line(n, RATE, weights, WIDTH)
-    Y, Z, Ys, Zs = (
-        between(n, VECTOR, 2, share),
-        between(n, VECTOR, 3, share),
-        change(n, VECTOR, 2),
-        change(n, VECTOR, 3),
-    )
+    Y, Z, Ys = between(n, VECTOR, 2, share), between(n, VECTOR, 3, share), change(n, VECTOR, 2)
+    Zs = change(n, VECTOR, 3)
     y, z, ys, zs = between(n, RATE, 2, share), between(n, RATE, 3, share), change(n, RATE, 2), change(n, RATE, 3)
     e0, r0 = 0.5 * dot(d, d) - 0.5 - unstrained[0], dot(d, v)
     e1, r1 = dot(d, Y) - unstrained[1], dot(v, Y) + dot(d, y)

@@ -196,10 +196,8 @@ def point_of_element(bodies, markers, index, n, q, control):
     zero = 0.0 * strain[0]
     rate = zero, zero, zero, zero, zero, zero
     if real(damping) > 0.0:
-        turning, bending = (
-            interpolated(n, shape, ElementRow.RATE, count),
-            interpolated(n, slope, ElementRow.RATE, count),
-        )
+        turning = interpolated(n, shape, ElementRow.RATE, count)
+        bending = interpolated(n, slope, ElementRow.RATE, count)
         w = rotated(-a, b, psi, seen(Ar, wr))
         t = tangent_product(a, b, c, psi, turning)
         spin = plus(w, t)

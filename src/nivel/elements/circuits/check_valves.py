@@ -275,10 +275,8 @@ def add_counterbalance(builder: SystemBuilder, component: CounterbalanceValve) -
             add_flow(builder, component.name, "drain_flow", (pilot, ports["V"]), bore(component.drain_orifice))
     ends, back = (ports["L"], ports["V"]), (ports["V"], ports["L"])
     add_opened(builder, component, "flow", ends, factors, component.opens_at, constant=constant)
-    check, spring = (
-        [component.check_conductance, TRANSITION, 0.0],
-        (component.check_opens_at, component.check_opening_range),
-    )
+    check = [component.check_conductance, TRANSITION, 0.0]
+    spring = (component.check_opens_at, component.check_opening_range)
     add_check_between(builder, component, "check_flow", back, check, spring)
 
 

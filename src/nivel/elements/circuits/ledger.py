@@ -13,6 +13,7 @@ from nivel.elements.circuits.density import EXPANSION, HEAT_CAPACITY
 from nivel.elements.circuits.kind import Phase, called
 from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.rows import clear
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import family
 from nivel.kernels.record.record import NONE, record_at
@@ -121,8 +122,7 @@ def begin_ledger(machine, number, t):
     """Nothing is stored and no power flows before nodes and components add theirs."""
     circuit = record_at(machine).circuit
     circuit.stored[0] = 0.0
-    for i in range(circuit.power.shape[0]):
-        circuit.power[i] = 0.0
+    clear(circuit.power)
     return OK
 
 

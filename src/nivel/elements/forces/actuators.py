@@ -165,12 +165,8 @@ def stop(machine, k, index, n, t):
     """Compliant surfaces at LOWER and UPPER, see `nivel.elements.contacts.impact`."""
     record = record_at(machine)
     elements, coordinates, control, out = record.elements, record.coordinates, record.control, record.outputs.value
-    memory, proposal, depth, followed = (
-        elements.memory[k],
-        elements.proposal[k],
-        elements.depth[k],
-        record.watched.followed[0],
-    )
+    memory, proposal, depth = elements.memory[k], elements.proposal[k], elements.depth[k]
+    followed = record.watched.followed[0]
     q, first = index[StopRow.COORDINATE], index[StopRow.OUTPUT]
     c, rate = coordinates.value[q], coordinates.rate[q]
     depth[0], depth[1] = n[StopRow.LOWER] - c, c - n[StopRow.UPPER]

@@ -100,11 +100,8 @@ def ways(machine, k):
     bodies, markers, elements = record.bodies, record.markers, record.elements
     index, numbers, count = elements.columns[k], elements.number[k], np.int64(elements.columns[k, RopeRow.COUNT])
     p = np.int64(index[RopeRow.ALONG + count + PAST])
-    first, second, heavy = (
-        0.0 * numbers[RopeRow.STIFFNESS],
-        0.0 * numbers[RopeRow.STIFFNESS],
-        0.0 * numbers[RopeRow.STIFFNESS],
-    )
+    first, second = 0.0 * numbers[RopeRow.STIFFNESS], 0.0 * numbers[RopeRow.STIFFNESS]
+    heavy = 0.0 * numbers[RopeRow.STIFFNESS]
     A, end = markers.A[index[RopeRow.AXIS]], numbers[at(count - 1) : at(count)]
     low, other_low = height(bodies, numbers[at(0) : at(1)]), height(bodies, end)
     into, before, j = 0.0 * heavy, 0, 0

@@ -163,11 +163,8 @@ def balance(machine, k):
     """Where the springs of element k balance, from where they last did: (x, y, z) as numbers."""
     record = record_at(machine)
     numbers, memory = record.elements.number[k], record.elements.memory[k]
-    x, y, z = (
-        real(numbers[NodeRow.PLACE]) + memory[0],
-        real(numbers[NodeRow.PLACE + 1]) + memory[1],
-        real(numbers[NodeRow.PLACE + 2]) + memory[2],
-    )
+    x, y = real(numbers[NodeRow.PLACE]) + memory[0], real(numbers[NodeRow.PLACE + 1]) + memory[1]
+    z = real(numbers[NodeRow.PLACE + 2]) + memory[2]
     stiff, size = real(numbers[NodeRow.STIFF]), real(numbers[NodeRow.SIZE])
     V, gx, gy, gz, xx, xy, xz, yy, yz, zz = energy_at(machine, k, x, y, z)
     shift = 0.0

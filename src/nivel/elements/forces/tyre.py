@@ -474,11 +474,8 @@ def stretch_rate(v, a, c, d, z):
 @leaf
 def trail_at(n, q, slip):
     """Trail by the length of the patch (Rill 2012, 3.6)."""
-    n0, zero, end = (
-        between(n, TyreRow.TRAIL, q),
-        n[TyreRow.GRIP] * between(n, TyreRow.TRAIL + 2, q),
-        n[TyreRow.GRIP] * between(n, TyreRow.TRAIL + 4, q),
-    )
+    n0, zero = between(n, TyreRow.TRAIL, q), n[TyreRow.GRIP] * between(n, TyreRow.TRAIL + 2, q)
+    end = n[TyreRow.GRIP] * between(n, TyreRow.TRAIL + 4, q)
     if real(slip) >= real(end):
         return 0.0 * slip
     w = zero / end

@@ -460,12 +460,8 @@ def pull(machine, k, p, n, tension):
 def stick_and_slip(machine, k, index, n, t):
     """Tensions of all parts; outputs: that of the first part, power, its stretch, tension of the last part."""
     record = record_at(machine)
-    control, out, count, first = (
-        record.control,
-        record.outputs.value,
-        np.int64(index[RopeRow.COUNT]),
-        index[RopeRow.OUTPUT],
-    )
+    control, out, count = record.control, record.outputs.value, np.int64(index[RopeRow.COUNT])
+    first = index[RopeRow.OUTPUT]
     axle = lay_out(machine, k)
     measure_parts(machine, k, axle)
     base = at(count) + PARTS

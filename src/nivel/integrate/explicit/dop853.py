@@ -12,6 +12,7 @@ from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.dense import cubic, wanted
 from nivel.integrate.loop.run import DENSE, POWERS, STEP_SIGNATURE, add_rows, run_at, sum_rows
 from nivel.integrate.loop.step_control import size
+from nivel.kernels.algebra.rows import copy
 from nivel.kernels.core.status import OK
 from nivel.native.entry import entry
 from nivel.native.function import leaf
@@ -73,8 +74,7 @@ def _attempt(evaluate, machine, history, h):
     third = size(run, run.scratch)
     sum_rows(run.stages, h, E5, NEW, run.scratch)
     fifth = size(run, run.scratch)
-    for i in range(run.y.shape[0]):
-        run.trial[i] = run.previous[i]
+    copy(run.previous, run.trial)
     add_rows(run.stages, h, A[NEW], NEW, run.trial)
     # the two estimates, h⁶ and h⁴, together behave as h⁸ (§II.10, eq. 10.17)
     # no squares: those of errors below 1e-162 are zero, and their ratio no number

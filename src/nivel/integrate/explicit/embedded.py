@@ -1,6 +1,6 @@
 """Embedded explicit Runge–Kutta methods: step with an error estimate. Their stages are the rows of `run.stages`."""
 
-from nivel.integrate.loop.run import EVALUATIONS, RESTART, STEP, TIME, add_rows, run_at
+from nivel.integrate.loop.run import RESTART, STEP, TIME, add_rows, evaluate_at, run_at
 from nivel.integrate.loop.step_control import (
     allowed,
     enter,
@@ -12,8 +12,8 @@ from nivel.integrate.loop.step_control import (
     reject,
     too_small,
 )
+from nivel.kernels.algebra.rows import copy
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import call_evaluate
 from nivel.native.function import leaf, shared
 
 # entries of run.numbers: the error of the last accepted step; whether this step was rejected before
@@ -25,11 +25,9 @@ def evaluate_stages(evaluate, machine, history, h, A, c, first, last):
     """Stages k_first … k_last - 1 of the table A, c. The argument of the last one is left in `run.trial`. Returns a status."""
     run = run_at(history)
     for s in range(first, last):
-        for i in range(run.y.shape[0]):
-            run.trial[i] = run.previous[i]
+        copy(run.previous, run.trial)
         add_rows(run.stages, h, A[s], s, run.trial)
-        run.counter[EVALUATIONS] += 1
-        status = call_evaluate(evaluate, machine, run.clock[TIME] + c[s] * h, run.trial, run.stages[s])
+        status = evaluate_at(evaluate, machine, run, run.clock[TIME] + c[s] * h, run.trial, run.stages[s])
         if status != OK:
             return status
     return OK
@@ -44,8 +42,7 @@ def begin(evaluate, machine, history, order, tolerance):
         run.numbers[LAST_ERROR] = 1.0
         run.counter[RESTART] = 0
     run.numbers[REPEATED] = 0.0
-    for i in range(run.y.shape[0]):
-        run.stages[0, i] = run.rate[i]
+    copy(run.rate, run.stages[0])
 
 
 @leaf
@@ -65,8 +62,7 @@ def is_accepted(machine, history, h, order, status, error):
         return False
     run.clock[STEP] = h * factor_after_success(error, run.numbers[LAST_ERROR], order, run.numbers[REPEATED] == 1.0)
     run.numbers[LAST_ERROR] = error
-    for i in range(run.y.shape[0]):
-        run.y[i] = run.trial[i]
+    copy(run.trial, run.y)
     return True
 
 

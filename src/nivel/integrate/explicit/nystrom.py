@@ -13,10 +13,10 @@ X a second integral of it, (q, X) is one system ÿ = f(t, y, ẏ), and the order
 """
 
 from nivel.integrate.facts import IntegratorFacts
-from nivel.integrate.loop.run import EVALUATIONS, STEP, STEP_SIGNATURE, TIME, run_at
+from nivel.integrate.loop.run import STEP, STEP_SIGNATURE, TIME, evaluate_at, run_at
 from nivel.kernels.algebra.rotation import angular_velocity, rates_of_parameters
+from nivel.kernels.algebra.rows import advance
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import call_evaluate
 from nivel.native.entry import entry
 from nivel.native.function import leaf
 
@@ -29,8 +29,7 @@ def place(history, y, h, curvature, slope):
     """y := the state after h: velocities and the rest with `slope`, positions with half of `curvature`, from run.previous."""
     run = run_at(history)
     start, velocity = run.previous, run.stages[VELOCITY]
-    for i in range(y.shape[0]):
-        y[i] = start[i] + h * slope[i]
+    advance(start, h, slope, y)
     for k in range(run.plain.shape[0]):
         q = run.plain[k, 0]
         y[q] = start[q] + h * (velocity[q] + 0.5 * h * curvature[q])
@@ -71,8 +70,7 @@ def rkn4(evaluate, machine, history):
         share = 1.0 if stage == 3 else 0.5
         curvature = before if stage == 3 else first
         place(history, trial, share * h, curvature, before)
-        status = call_evaluate(evaluate, machine, t + share * h, trial, run.stages[stage])
-        run.counter[EVALUATIONS] += 1
+        status = evaluate_at(evaluate, machine, run, t + share * h, trial, run.stages[stage])
         if status != OK:
             return status
         second_derivatives(history, trial, run.stages[stage])

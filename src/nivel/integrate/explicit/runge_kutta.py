@@ -6,9 +6,9 @@ Each of them has as many stages as its order, so the order names the table.
 import numpy as np
 
 from nivel.integrate.facts import IntegratorFacts
-from nivel.integrate.loop.run import EVALUATIONS, ORDER, STEP, STEP_SIGNATURE, TIME, add_rows, run_at
+from nivel.integrate.loop.run import ORDER, STEP, STEP_SIGNATURE, TIME, add_rows, evaluate_at, run_at
+from nivel.kernels.algebra.rows import advance, copy
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import call_evaluate
 from nivel.native.entry import entry
 from nivel.native.function import leaf
 
@@ -34,13 +34,10 @@ def explicit(evaluate, machine, history, order, t, h, row):
     """
     run = run_at(history)
     y, trial = run.y, run.trial
-    n = y.shape[0]
     for stage in range(1, order):
         node, before = NODES[order, stage], run.stages[row + stage - 1]
-        for i in range(n):
-            trial[i] = y[i] + node * h * before[i]
-        status = call_evaluate(evaluate, machine, t + node * h, trial, run.stages[row + stage])
-        run.counter[EVALUATIONS] += 1
+        advance(y, node * h, before, trial)
+        status = evaluate_at(evaluate, machine, run, t + node * h, trial, run.stages[row + stage])
         if status != OK:
             return status
     add_rows(run.stages[row:], h, WEIGHTS[order], order, y)
@@ -51,8 +48,7 @@ def explicit(evaluate, machine, history, order, t, h, row):
 def step(evaluate, machine, history):
     """One step of the method of counter[ORDER]."""
     run = run_at(history)
-    for i in range(run.y.shape[0]):
-        run.stages[0, i] = run.rate[i]
+    copy(run.rate, run.stages[0])
     return explicit(evaluate, machine, history, run.counter[ORDER], run.clock[TIME], run.clock[STEP], 0)
 
 

@@ -7,6 +7,7 @@ through the joints, by the least change in the mass metric; its work is that of 
 import numpy as np
 
 from nivel.integrate.loop.run import run_at
+from nivel.kernels.algebra.rows import add, clear, copy
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.function import NEAR
 from nivel.kernels.record.hook import call_hook
@@ -86,24 +87,20 @@ def find_jump(machine):
     newton, residual = record.newton, record.residual
     b, total = newton.b, newton.before
     first, rows = residual.vdot.shape[0] + newton.state.shape[0], residual.lam.shape[0]
-    for k in range(b.shape[0]):
-        b[k] = 0.0
+    clear(b)
     for k in range(residual.row.shape[0]):
         b[first + k] = -residual.value[first + rows + k]
     solve(machine)
     if newton.compliance.shape[0] == 0:
         return
-    for k in range(b.shape[0]):
-        total[k] = b[k]
+    copy(b, total)
     for _ in range(FURTHER):
         for k in range(b.shape[0]):
             is_held = first <= k < first + newton.compliance.shape[0]
             b[k] = -newton.compliance[k - first] * b[k] if is_held else 0.0
         solve(machine)
-        for k in range(b.shape[0]):
-            total[k] += b[k]
-    for k in range(b.shape[0]):
-        b[k] = total[k]
+        add(b, total)
+    copy(total, b)
 
 
 @leaf
@@ -113,13 +110,11 @@ def pass_corner(machine, history, t):
     newton, residual, constraints = record.newton, record.residual, record.constraints
     n, first = residual.vdot.shape[0], residual.vdot.shape[0] + newton.state.shape[0]
     positions, rows = np.int64(run.y.shape[0]) - first - 2, residual.row.shape[0]
-    for i in range(run.y.shape[0]):
-        residual.y[i] = run.y[i]
+    copy(run.y, residual.y)
     status, jumps = call_hook(machine, RESIDUAL, 0, t), False
     if status == OK and speeds_are_open(residual, constraints.scale, first):
         jumps = True
-        for k in range(n):
-            newton.change[k] = 0.0
+        clear(newton.change)
         # friction is a force, not an impulse
         stick, record.control.stick[0] = record.control.stick[0], np.inf
         status = differentiate(machine, t, INSTANT * INSTANT, INSTANT, INSTANT, POSITIONS)
@@ -131,8 +126,7 @@ def pass_corner(machine, history, t):
         find_jump(machine)
         for k in range(n):
             run.y[positions + k] += newton.b[k]
-        for k in range(constraints.lam.shape[0]):
-            constraints.lam[k] = 0.0
+        clear(constraints.lam)
         for k in range(rows):
             constraints.lam[residual.row[k]] = newton.b[first + k]
         # an impulse does the mean of the work that it would do at the speeds on either side

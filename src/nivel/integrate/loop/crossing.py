@@ -9,9 +9,10 @@ import numpy as np
 from nivel.integrate.loop import run as of_run
 from nivel.integrate.loop.dense import inside
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.rows import copy
 from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import EVENT_NOT_FINITE, OK
-from nivel.kernels.record.hook import call_correct, call_evaluate, call_hook
+from nivel.kernels.record.hook import call_correct, call_hook
 from nivel.kernels.record.record import BOTH, DIRECTION, RISING, STOP, WATCH, record_at
 from nivel.kernels.signals.watch import MARK
 from nivel.native.function import leaf
@@ -73,9 +74,8 @@ def probe(evaluate, correct, machine, history, theta):
     status = call_correct(correct, machine, t, run.trial)
     if status != OK:
         return status
-    run.counter[of_run.EVALUATIONS] += 1
     run.counter[of_run.KNOWN] = 0
-    return call_evaluate(evaluate, machine, t, run.trial, run.scratch)
+    return of_run.evaluate_at(evaluate, machine, run, t, run.trial, run.scratch)
 
 
 @leaf
@@ -183,7 +183,6 @@ def end_at(evaluate, correct, machine, history, theta):
     if status != OK:
         return status
     run.clock[of_run.REACHED] = run.clock[of_run.TIME] + theta * run.clock[of_run.LENGTH]
-    for i in range(run.y.shape[0]):
-        run.y[i] = run.trial[i]
+    copy(run.trial, run.y)
     run.counter[of_run.KNOWN] = 1
     return read_values(machine, history, of_run.AFTER, run.clock[of_run.REACHED])

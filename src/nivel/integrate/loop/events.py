@@ -28,7 +28,7 @@ from nivel.integrate.loop.samples import ends_at_switches
 from nivel.integrate.loop.surfaces import find_contacts
 from nivel.integrate.loop.switches import first_switch, has_switches, look_between, note_slopes, pass_unseen
 from nivel.kernels.core.status import BUFFER_FULL, OK
-from nivel.kernels.record.hook import call_evaluate, call_hook
+from nivel.kernels.record.hook import call_hook
 from nivel.kernels.record.record import DIRECTION, ENDS_RUN, ENDS_STEP, STOP, WATCH, record_at
 from nivel.native.function import leaf
 
@@ -169,8 +169,7 @@ def find_events(evaluate, correct, machine, history):
     run, watched = of_run.run_at(history), record_at(machine).watched
     values, clock, counter = run.event_values, run.clock, run.counter
     events, count = watched.event.shape[0], run.event_values.shape[1]
-    status = call_evaluate(evaluate, machine, clock[of_run.REACHED], run.y, run.scratch)
-    counter[of_run.EVALUATIONS] += 1
+    status = of_run.evaluate_at(evaluate, machine, run, clock[of_run.REACHED], run.y, run.scratch)
     counter[of_run.KNOWN] = 1
     if status == OK:
         status = read_values(machine, history, of_run.AFTER, clock[of_run.REACHED])

@@ -5,7 +5,7 @@ import numpy as np
 from nivel.integrate.loop import run as of_run
 from nivel.integrate.loop.dense import cubic, frame_time, inside
 from nivel.integrate.loop.events import begin_events, find_events, hand_out_events
-from nivel.integrate.loop.run import EVALUATIONS, TIME, UNCONSERVED, run_at
+from nivel.integrate.loop.run import TIME, UNCONSERVED, evaluate_at, run_at
 from nivel.integrate.loop.samples import (
     completes,
     ends_at_switches,
@@ -19,6 +19,7 @@ from nivel.integrate.loop.samples import (
 from nivel.integrate.loop.step_control import evaluate_accepted, fastest_turn
 from nivel.integrate.loop.surfaces import allow_ahead, keep_ways
 from nivel.integrate.loop.switches import change_sides, has_switches, note_sides
+from nivel.kernels.algebra.rows import copy
 from nivel.kernels.bodies.rigid import turn_to_body_axes
 from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE, NOT_FINITE, OK, OPEN
 from nivel.kernels.output.observe import accept, energies, observe
@@ -124,8 +125,7 @@ def conserve(evaluate, machine, history):
     for k in range(run.turns.shape[0]):
         for i in range(3):
             y[run.turns[k, 1] + i] *= factor
-    run.counter[EVALUATIONS] += 1
-    return call_evaluate(evaluate, machine, run.clock[TIME], y, run.rate)
+    return evaluate_at(evaluate, machine, run, run.clock[TIME], y, run.rate)
 
 
 @leaf
@@ -203,8 +203,7 @@ def write_inside(evaluate, correct, machine, history):
         if counter[of_run.FRAMES] == run.frames.shape[0]:
             return BUFFER_FULL
         if counter[of_run.DENSE] == 0:
-            status = call_evaluate(evaluate, machine, clock[of_run.REACHED], run.y, run.scratch)
-            counter[of_run.EVALUATIONS] += 1
+            status = evaluate_at(evaluate, machine, run, clock[of_run.REACHED], run.y, run.scratch)
             if status != OK:
                 return status
             cubic(run, clock[of_run.LENGTH], run.rate, run.scratch)
@@ -212,8 +211,7 @@ def write_inside(evaluate, correct, machine, history):
         inside(run, (t - clock[of_run.TIME]) / clock[of_run.LENGTH], run.trial)
         status = call_correct(correct, machine, t, run.trial)
         if status == OK:
-            status = call_evaluate(evaluate, machine, t, run.trial, run.scratch)
-            counter[of_run.EVALUATIONS] += 1
+            status = evaluate_at(evaluate, machine, run, t, run.trial, run.scratch)
         if status == OK:
             status = evaluate_without_feedback(evaluate, machine, t, run.trial, history)
         if status != OK:
@@ -234,8 +232,7 @@ def accept_state(evaluate, machine, history, due):
         return OPEN
     if status == OK and counter[of_run.CONSERVE] == 1 and counter[of_run.DONE_STEPS] > 0:
         status = conserve(evaluate, machine, history)
-    for i in range(run.y.shape[0]):
-        run.previous[i] = run.y[i]
+    copy(run.y, run.previous)
     clock[of_run.ACCEPTED] = clock[of_run.TIME]
     if status != OK:
         return status
@@ -276,14 +273,12 @@ def pass_nodes(machine, run):
     if record.hooks.address[PASS] == 0:
         return OK
     y, own = run.y, record.residual.y
-    for i in range(y.shape[0]):
-        own[i] = y[i]
+    copy(y, own)
     status = call_hook(machine, PASS, DEPART, run.clock[of_run.REACHED])
     if status != OK or not has_passed(record.tree):
         return status
     status = call_hook(machine, PASS, RESUME, run.clock[of_run.REACHED])
-    for i in range(y.shape[0]):
-        y[i] = own[i]
+    copy(own, y)
     # what came before says nothing of what comes after
     run.counter[of_run.RESTART] = 1
     return status
@@ -295,8 +290,7 @@ def correct_reached(correct, machine, history):
     run = of_run.run_at(history)
     dense = run.counter[of_run.DENSE] > 0
     if dense:
-        for i in range(run.y.shape[0]):
-            run.trial[i] = run.y[i]
+        copy(run.y, run.trial)
     status = pass_nodes(machine, run)
     if status == OK:
         status = call_correct(correct, machine, run.clock[of_run.REACHED], run.y)

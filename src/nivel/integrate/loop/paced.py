@@ -15,6 +15,7 @@ import numpy as np
 
 from nivel.integrate.loop.run import BUDGET, DONE_STEPS, EVENTS, FRAMES, TIME, run_at
 from nivel.integrate.loop.samples import time_of
+from nivel.kernels.algebra.rows import copy
 from nivel.kernels.core.arrays import A1, F1, F2, I1, U1
 from nivel.kernels.core.handle import reader
 from nivel.kernels.core.status import BUDGET_SPENT
@@ -143,8 +144,7 @@ def show_frame(history, session):
     count = run.counter[FRAMES]
     if count > 0:
         target, source = live.frames[live.control[SHOWN] % np.int64(live.frames.shape[0])], run.frames[count - 1]
-        for i in range(source.shape[0]):
-            target[i] = source[i]
+        copy(source, target)
         run.counter[FRAMES] = 0
         live.control[SHOWN] += 1
     run.counter[EVENTS] = 0

@@ -13,18 +13,19 @@ from nivel.integrate.loop.run import (
     BUDGET,
     DONE_STEPS,
     EVALUATED,
-    EVALUATIONS,
     FRAMES,
     REACHED,
     REJECTED,
     TIME,
+    evaluate_at,
     run_at,
 )
 from nivel.integrate.loop.samples import time_of
 from nivel.kernels.algebra.rotation import product
+from nivel.kernels.algebra.rows import copy
 from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE, NOT_CLOSED, NOT_FINITE, OK
 from nivel.kernels.output.observe import accept
-from nivel.kernels.record.hook import call_correct, call_evaluate
+from nivel.kernels.record.hook import call_correct
 from nivel.kernels.record.record import record_at
 from nivel.kernels.solve.saddle import contradicts, exceeds
 from nivel.native.entry import entry
@@ -45,8 +46,7 @@ ATTEMPTS = 4
 def predict(run, h):
     """run.y := the state h [s] after the accepted one, `previous`, by its velocities and accelerations."""
     y, before, rate = run.y, run.previous, run.rate
-    for i in range(y.shape[0]):
-        y[i] = before[i]
+    copy(before, y)
     for k in range(run.plain.shape[0]):
         q, v = np.int64(run.plain[k, 0]), np.int64(run.plain[k, 1])
         y[q] += h * (rate[q] + 0.5 * h * rate[v])
@@ -82,8 +82,7 @@ def largest_change(run, first, second):
 def close(correct, machine, run, t):
     """Close run.y at the time t, near where it was predicted. Returns a status."""
     record = record_at(machine)
-    for i in range(run.y.shape[0]):
-        run.trial[i] = run.y[i]
+    copy(run.y, run.trial)
     way = largest_change(run, run.y, run.previous)
     if not way <= LONGEST:
         return NOT_CLOSED
@@ -112,8 +111,7 @@ def keep(machine, run, t):
 def evaluated(evaluate, machine, run, t):
     """`scratch` := the rate of run.y. Returns a status."""
     record = record_at(machine)
-    run.counter[EVALUATIONS] += 1
-    status = call_evaluate(evaluate, machine, t, run.y, run.scratch)
+    status = evaluate_at(evaluate, machine, run, t, run.y, run.scratch)
     if status == OK and not finite(run.scratch):
         return NOT_FINITE
     if status == OK and contradicts(record.saddle, record.constraints, record.control.failure):
@@ -144,8 +142,7 @@ def reach(evaluate, correct, machine, run, target):
             h *= 0.5
             run.counter[REJECTED] += 1
             if h < least:
-                for i in range(run.y.shape[0]):
-                    run.y[i] = run.previous[i]
+                copy(run.previous, run.y)
                 return status
     run.numbers[0] = h
     return OK

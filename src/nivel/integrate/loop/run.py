@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from nivel.kernels.algebra.rows import add_times, clear
 from nivel.kernels.core.arrays import F1, F2, I1, U1, U2
 from nivel.kernels.core.handle import reader
+from nivel.kernels.record.hook import call_evaluate
 from nivel.native.function import caller, leaf
 from nivel.native.signature import Signature
 
@@ -104,18 +106,23 @@ call_step = caller(STEP_SIGNATURE)
 
 
 @leaf
+def evaluate_at(evaluate, machine, run, t, y, rate):
+    """rate := ẏ of y at t, one of the EVALUATIONS. Returns a status."""
+    run.counter[EVALUATIONS] += 1
+    return call_evaluate(evaluate, machine, t, y, rate)
+
+
+@leaf
 def add_rows(rows, h, weights, count, out):
     """out += h Σ weights[j] rows[j] over the first `count` rows."""
     for j in range(count):
         if weights[j] != 0.0:
             factor, row = h * weights[j], rows[j]
-            for i in range(out.shape[0]):
-                out[i] += factor * row[i]
+            add_times(factor, row, out)
 
 
 @leaf
 def sum_rows(rows, h, weights, count, out):
     """out = h Σ weights[j] rows[j] over the first `count` rows."""
-    for i in range(out.shape[0]):
-        out[i] = 0.0
+    clear(out)
     add_rows(rows, h, weights, count, out)

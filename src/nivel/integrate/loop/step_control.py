@@ -15,7 +15,6 @@ from nivel.integrate.loop.run import (
     BOUND,
     DONE_STEPS,
     END,
-    EVALUATIONS,
     KNOWN,
     LARGEST,
     REACHED,
@@ -25,11 +24,12 @@ from nivel.integrate.loop.run import (
     STEP,
     TIME,
     TOLERANCE,
+    evaluate_at,
     run_at,
 )
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.rows import advance, copy, subtract
 from nivel.kernels.core.status import NOT_FINITE, OK, STEP_TOO_SMALL
-from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf
 
@@ -115,11 +115,9 @@ def evaluate_accepted(evaluate, machine, history):
     run = run_at(history)
     if run.counter[KNOWN] == 1:
         run.counter[KNOWN] = 0
-        for i in range(run.y.shape[0]):
-            run.rate[i] = run.scratch[i]
+        copy(run.scratch, run.rate)
         return OK
-    run.counter[EVALUATIONS] += 1
-    return call_evaluate(evaluate, machine, run.clock[TIME], run.y, run.rate)
+    return evaluate_at(evaluate, machine, run, run.clock[TIME], run.y, run.rate)
 
 
 @leaf
@@ -132,13 +130,10 @@ def first_step(evaluate, machine, history, order, tolerance):
     ahead = min(h, run.clock[BOUND] - run.clock[TIME])
     if first > 0.0:
         ahead = min(ahead, 0.01 * np.sqrt(tolerance) / first)
-    for i in range(run.y.shape[0]):
-        run.trial[i] = run.y[i] + ahead * run.rate[i]
-    run.counter[EVALUATIONS] += 1
-    if call_evaluate(evaluate, machine, run.clock[TIME] + ahead, run.trial, run.scratch) != OK:
+    advance(run.y, ahead, run.rate, run.trial)
+    if evaluate_at(evaluate, machine, run, run.clock[TIME] + ahead, run.trial, run.scratch) != OK:
         return min(h, ahead)
-    for i in range(run.y.shape[0]):
-        run.scratch[i] -= run.rate[i]
+    subtract(run.rate, run.scratch)
     second = size(run, run.scratch) / ahead
     fastest = max(first, np.sqrt(second))
     if not fastest < np.inf:

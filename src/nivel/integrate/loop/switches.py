@@ -14,6 +14,7 @@ import numpy as np
 from nivel.integrate.loop import run as of_run
 from nivel.integrate.loop.crossing import NEVER, locate, probe, read_values, value_at
 from nivel.integrate.loop.step_control import size
+from nivel.kernels.algebra.rows import clear, copy, subtract
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import record_at
@@ -42,8 +43,7 @@ def has_switches(machine, run):
 def release_sides(machine):
     """Let the differences decide in what is evaluated next."""
     held = record_at(machine).watched.held
-    for k in range(held.shape[0]):
-        held[k] = 0.0
+    clear(held)
 
 
 @leaf
@@ -103,12 +103,10 @@ def change_sides(evaluate, machine, history):
     run.counter[of_run.EVALUATIONS] += 1
     if not has_switches(machine, run):
         return call_evaluate(evaluate, machine, run.clock[of_run.TIME], run.y, run.rate)
-    for i in range(run.y.shape[0]):
-        run.scratch[i] = run.rate[i]
+    copy(run.rate, run.scratch)
     release_sides(machine)
     status = call_evaluate(evaluate, machine, run.clock[of_run.TIME], run.y, run.rate)
-    for i in range(run.y.shape[0]):
-        run.scratch[i] -= run.rate[i]
+    subtract(run.rate, run.scratch)
     jump, first = size(run, run.scratch), first_switch(machine)
     for k in range(watched.held.shape[0]):
         before = run.event_values[of_run.LAST, first + k]
@@ -165,12 +163,10 @@ def pass_unseen(evaluate, machine, history):
     if not crossed:
         return
     release_sides(machine)
-    run.counter[of_run.EVALUATIONS] += 1
     run.counter[of_run.KNOWN] = 0
-    status = call_evaluate(evaluate, machine, run.clock[of_run.REACHED], run.y, run.trial)
+    status = of_run.evaluate_at(evaluate, machine, run, run.clock[of_run.REACHED], run.y, run.trial)
     restore_sides(machine, run)
-    for i in range(run.y.shape[0]):
-        run.trial[i] -= run.scratch[i]
+    subtract(run.scratch, run.trial)
     if status == OK and run.clock[of_run.LENGTH] * size(run, run.trial) <= UNSEEN * run.clock[of_run.TOLERANCE]:
         run.counter[of_run.SWITCHED] = 1
         for k in range(first, values.shape[1]):

@@ -7,7 +7,6 @@ from nivel.integrate.explicit.runge_kutta import explicit
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import (
     CORRECTOR_TOLERANCE,
-    EVALUATIONS,
     ITERATIONS,
     MOST_ITERATIONS,
     NEWTON,
@@ -18,14 +17,15 @@ from nivel.integrate.loop.run import (
     STEP_SIGNATURE,
     TIME,
     add_rows,
+    evaluate_at,
     run_at,
     sum_rows,
 )
 from nivel.integrate.loop.step_control import larger
 from nivel.kernels.algebra.lu import factorise_lu, solve_lu
+from nivel.kernels.algebra.rows import advance, copy
 from nivel.kernels.core.lanes import is_whole, steepest
 from nivel.kernels.core.status import NOT_CONVERGED, OK
-from nivel.kernels.record.hook import call_evaluate
 from nivel.native.entry import entry
 from nivel.native.function import leaf
 
@@ -56,10 +56,8 @@ def shift(rows, count, y):
     """Move the first `count` - 1 of these rows by one and put y in front."""
     for k in range(count - 1):
         newer, older = rows[count - 2 - k], rows[count - 1 - k]
-        for i in range(y.shape[0]):
-            older[i] = newer[i]
-    for i in range(y.shape[0]):
-        rows[0, i] = y[i]
+        copy(newer, older)
+    copy(y, rows[0])
 
 
 @leaf
@@ -81,16 +79,14 @@ def remember(history, rates, states):
 def begin(evaluate, machine, history, order):
     """A step without history, for a method of `order`. Returns a status."""
     run = run_at(history)
-    t, h, n = run.clock[TIME], run.clock[STEP], run.y.shape[0]
-    for i in range(n):
-        run.stages[WORK, i] = run.rate[i]
+    t, h = run.clock[TIME], run.clock[STEP]
+    copy(run.rate, run.stages[WORK])
     if order <= 4:
         return explicit(evaluate, machine, history, 4, t, h, WORK)
     status = explicit(evaluate, machine, history, 4, t, 0.5 * h, WORK)
     if status != OK:
         return status
-    status = call_evaluate(evaluate, machine, t + 0.5 * h, run.y, run.stages[WORK])
-    run.counter[EVALUATIONS] += 1
+    status = evaluate_at(evaluate, machine, run, t + 0.5 * h, run.y, run.stages[WORK])
     if status != OK:
         return status
     return explicit(evaluate, machine, history, 4, t + 0.5 * h, 0.5 * h, WORK)
@@ -120,8 +116,7 @@ def renew(evaluate, machine, history, t, share, y, rate):
         value = y[j]
         y[j] += DIFFERENCE * max(run.scale[j], np.abs(value))
         width = y[j] - value
-        status = call_evaluate(evaluate, machine, t, y, run.scratch)
-        run.counter[EVALUATIONS] += 1
+        status = evaluate_at(evaluate, machine, run, t, y, run.scratch)
         y[j] = value
         if status != OK:
             return status
@@ -138,12 +133,10 @@ def newton(evaluate, machine, history, t, share):
     run = run_at(history)
     y, known, rate, predicted = run.y, run.stages[KNOWN], run.stages[RATE], run.stages[PREDICTED]
     n = y.shape[0]
-    for i in range(n):
-        predicted[i] = y[i]
+    copy(y, predicted)
     stale, own, last = run.numbers[SHARE] != share, False, np.inf
     for _ in range(run.counter[MOST_ITERATIONS]):
-        status = call_evaluate(evaluate, machine, t, y, rate)
-        run.counter[EVALUATIONS] += 1
+        status = evaluate_at(evaluate, machine, run, t, y, rate)
         run.counter[ITERATIONS] += 1
         if status == OK and stale:
             status = renew(evaluate, machine, history, t, share, y, rate)
@@ -166,8 +159,7 @@ def newton(evaluate, machine, history, t, share):
         if not change <= SLOW * last:
             stale = True
             if not own:
-                for i in range(n):
-                    y[i] = predicted[i]
+                copy(predicted, y)
         last = change
     run.numbers[SHARE] = 0.0
     return NOT_CONVERGED
@@ -199,8 +191,7 @@ def diagonal(evaluate, machine, history):
     t, h, y, known = run.clock[TIME], run.clock[STEP], run.y, run.stages[KNOWN]
     n = y.shape[0]
     for stage in range(STAGES):
-        for i in range(n):
-            known[i] = run.previous[i]
+        copy(run.previous, known)
         add_rows(run.stages[WORK:], h, MATRIX[stage], stage, known)
         # y, the stage before (at first the start of the step), is the prediction
         status = newton(evaluate, machine, history, t + NODES[stage] * h, GAMMA * h)
@@ -247,8 +238,7 @@ def functional(evaluate, machine, history, t, share):
     y, known, rate = run.y, run.stages[KNOWN], run.stages[RATE]
     first = 0.0
     for m in range(run.counter[MOST_ITERATIONS]):
-        status = call_evaluate(evaluate, machine, t, y, rate)
-        run.counter[EVALUATIONS] += 1
+        status = evaluate_at(evaluate, machine, run, t, y, rate)
         run.counter[ITERATIONS] += 1
         if status != OK:
             return status
@@ -309,8 +299,7 @@ def predict_moulton(history, order):
     """run.y := the prediction, stages[KNOWN] := y_n and the old rates of Moulton's method of this order."""
     run = run_at(history)
     known = run.stages[KNOWN]
-    for i in range(known.shape[0]):
-        known[i] = run.y[i]
+    copy(run.y, known)
     add_rows(run.stages[RATES:], run.clock[STEP], MOULTON[order, 1:], order - 1, known)
     predict(history, order)
 
@@ -336,13 +325,11 @@ def predict_correct(evaluate, machine, history):
         return begin(evaluate, machine, history, order)
     predict_moulton(history, order)
     known, rate, share = run.stages[KNOWN], run.stages[RATE], run.clock[STEP] * MOULTON[order, 0]
-    status = call_evaluate(evaluate, machine, run.clock[REACHED], run.y, rate)
-    run.counter[EVALUATIONS] += 1
+    status = evaluate_at(evaluate, machine, run, run.clock[REACHED], run.y, rate)
     run.counter[ITERATIONS] += 1
     if status != OK:
         return status
-    for i in range(known.shape[0]):
-        run.y[i] = known[i] + share * rate[i]
+    advance(known, share, rate, run.y)
     return OK
 
 

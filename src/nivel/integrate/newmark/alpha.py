@@ -13,7 +13,6 @@ from nivel.integrate.loop.corners import before, is_near, next_corner, pass_corn
 from nivel.integrate.loop.dense import cubic, wanted
 from nivel.integrate.loop.run import (
     ALL_STEPS,
-    EVALUATIONS,
     LENGTH,
     REACHED,
     RESTART,
@@ -21,6 +20,7 @@ from nivel.integrate.loop.run import (
     STEP_SIGNATURE,
     TIME,
     TOLERANCE,
+    evaluate_at,
     run_at,
 )
 from nivel.integrate.loop.step_control import (
@@ -49,8 +49,8 @@ from nivel.integrate.newmark.alpha_step import (
 )
 from nivel.integrate.newmark.correction_slopes import NUMBERS, ROWS
 from nivel.integrate.newmark.residual_newton import TOLERANCE as NEWTON_TOLERANCE
+from nivel.kernels.algebra.rows import copy
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import record_at
 from nivel.native.entry import entry
 from nivel.native.function import leaf
@@ -77,8 +77,7 @@ def end_at_corner(evaluate, machine, history, t, fresh):
     status = OK
     inside = run.event_values.shape[1] > 0 or (run.counter[ALL_STEPS] == 0 and wanted(run))
     if t == clock[REACHED] and inside:
-        status = call_evaluate(evaluate, machine, before(t), run.y, run.scratch)
-        run.counter[EVALUATIONS] += 1
+        status = evaluate_at(evaluate, machine, run, before(t), run.y, run.scratch)
         clock[LENGTH] = t - clock[TIME]
         cubic(run, clock[LENGTH], run.rate, run.scratch)
     if status == OK:
@@ -95,8 +94,7 @@ def fixed_step(evaluate, machine, history):
     """From clock[TIME] to clock[REACHED], in parts between the corners on the way. Returns a status."""
     run = run_at(history)
     t, target = run.clock[TIME], run.clock[REACHED]
-    for i in range(run.y.shape[0]):
-        run.stages[RATE, i] = run.rate[i]
+    copy(run.rate, run.stages[RATE])
     while True:
         corner = next_corner(machine, t, target)
         at_corner = corner < np.inf
@@ -119,12 +117,10 @@ def fixed_step(evaluate, machine, history):
         if status != OK or t >= target:
             break
         # another part follows
-        status = call_evaluate(evaluate, machine, t, run.y, run.rate)
-        run.counter[EVALUATIONS] += 1
+        status = evaluate_at(evaluate, machine, run, t, run.y, run.rate)
         if status != OK:
             break
-    for i in range(run.y.shape[0]):
-        run.rate[i] = run.stages[RATE, i]
+    copy(run.stages[RATE], run.rate)
     return status
 
 
@@ -194,8 +190,7 @@ def controlled_step(evaluate, machine, history):
         reject(run, h, factor)
         if fresh:
             # `start` takes the multipliers of the accepted state from the record
-            call_evaluate(evaluate, machine, t, run.y, run.scratch)
-            run.counter[EVALUATIONS] += 1
+            evaluate_at(evaluate, machine, run, t, run.y, run.scratch)
         if leap:
             clock[STEP], leap = usual, False
         newton.kept[0] = 0.0

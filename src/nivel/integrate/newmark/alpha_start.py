@@ -8,7 +8,7 @@ taken for true it would throw the velocities by as much. So what is fast is left
 import numpy as np
 
 from nivel.integrate.loop.corners import before, jump_at
-from nivel.integrate.loop.run import ALL_STEPS, EVALUATIONS, FACTORISATIONS, RESTART, STEP, run_at
+from nivel.integrate.loop.run import ALL_STEPS, FACTORISATIONS, RESTART, STEP, evaluate_at, run_at
 from nivel.integrate.newmark.alpha_step import (
     AHEAD,
     ALPHA_F,
@@ -40,10 +40,11 @@ from nivel.integrate.newmark.correction_slopes import (
 )
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.rotation import rates_of_parameters
+from nivel.kernels.algebra.rows import advance, clear, copy
 from nivel.kernels.core.lanes import is_whole, slope, unit
 from nivel.kernels.core.number import number_of
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import call_evaluate, call_family, call_hook
+from nivel.kernels.record.hook import call_family, call_hook
 from nivel.kernels.record.record import NONE, RESIDUAL, record_at
 from nivel.kernels.residual.residual import known_multiplier
 from nivel.kernels.residual.tangent import POSITIONS, differentiate, load_twin, move_unknown
@@ -78,8 +79,7 @@ def move_here(newton, residual, run, far, cq, cv, cx, accelerates):
     """Move the state in rows Y, KEPT_VDOT and KEPT_LAM of run.stages, `far` times, along the values of its rows MOVED and MOVED_LAM."""
     stages, n, states = run.stages, residual.vdot.shape[0], newton.state.shape[0]
     positions = np.int64(run.y.shape[0]) - n - states - 2
-    for i in range(run.y.shape[0]):
-        residual.y[i] = stages[Y, i]
+    copy(stages[Y], residual.y)
     for k in range(n):
         along = far * real(stages[MOVED, k])
         p, axis = np.int64(newton.place[k, 0]), newton.place[k, 1]
@@ -134,8 +134,7 @@ def follow_matrices(machine, run, t, cq, coefficients, x):
     newton, residual = record.newton, record.residual
     b, n, room = newton.b, residual.vdot.shape[0], min(residual.lam.shape[0], run.y.shape[0])
     first = n + newton.state.shape[0]
-    for i in range(run.y.shape[0]):
-        stages[Y, i] = residual.y[i]
+    copy(residual.y, stages[Y])
     copy_unknowns(residual, run, KEPT_VDOT, KEPT_LAM)
     for k in range(first):
         stages[MOVED, k], stages[MISSED, k], b[k] = x[k], b[k], 0.0
@@ -149,12 +148,9 @@ def follow_matrices(machine, run, t, cq, coefficients, x):
     solve(machine)
     for k in range(first):
         b[k] += stages[MISSED, k]
-    for i in range(run.y.shape[0]):
-        residual.y[i] = stages[Y, i]
-    for k in range(n):
-        residual.vdot[k] = stages[KEPT_VDOT, k]
-    for k in range(room):
-        residual.lam[k] = stages[KEPT_LAM, k]
+    copy(stages[Y], residual.y)
+    copy(stages[KEPT_VDOT], residual.vdot)
+    copy(stages[KEPT_LAM], residual.lam)
     return status
 
 
@@ -230,10 +226,8 @@ def smooth(machine, run, t):
     newton, residual, c, stick = record.newton, record.residual, run.numbers, record.control.stick
     if not is_steep(run, newton):
         return
-    for i in range(run.y.shape[0]):
-        residual.y[i] = run.y[i]
-    for k in range(residual.vdot.shape[0]):
-        newton.change[k] = 0.0
+    copy(run.y, residual.y)
+    clear(newton.change)
     h = run.clock[STEP]
     share, share_x = (1.0 - c[ALPHA_F]) / (1.0 - c[ALPHA_M]), (1.0 - c[DELTA_F]) / (1.0 - c[DELTA_M])
     cq, cv, cx = h * h * c[BETA] * share, h * c[GAMMA] * share, h * c[THETA] * share_x
@@ -266,10 +260,8 @@ def add(run, newton):
 def find_slope(evaluate, machine, history, t, rate, ahead):
     """run.stages[AHEAD] := the rate a time `ahead` after the state run.y at time t, whose rate is `rate`. Returns a status."""
     run = run_at(history)
-    for i in range(run.y.shape[0]):
-        run.trial[i] = run.y[i] + ahead * rate[i]
-    run.counter[EVALUATIONS] += 1
-    return call_evaluate(evaluate, machine, t + ahead, run.trial, run.stages[AHEAD])
+    advance(run.y, ahead, rate, run.trial)
+    return evaluate_at(evaluate, machine, run, t + ahead, run.trial, run.stages[AHEAD])
 
 
 @leaf
@@ -320,8 +312,7 @@ def go_on_beyond(evaluate, machine, history, t):
     for sign in (-1.0, 1.0):
         at = before(begin) if sign < 0.0 else t
         if status == OK:
-            status = call_evaluate(evaluate, machine, at, run.y, run.scratch)
-            run.counter[EVALUATIONS] += 1
+            status = evaluate_at(evaluate, machine, run, at, run.y, run.scratch)
         if status == OK:
             for k in range(residual.lam.shape[0]):
                 newton.lam[k] += sign * known_multiplier(record, k)
@@ -336,8 +327,7 @@ def go_on_beyond(evaluate, machine, history, t):
     if status == OK:
         for k in range(n):
             residual.vdot[k] = stages[VDOT, k] + stages[JUMP, k]
-        for k in range(residual.lam.shape[0]):
-            residual.lam[k] = newton.lam[k]
+        copy(newton.lam, residual.lam)
         smooth(machine, run, t)
         add(run, newton)
     return status

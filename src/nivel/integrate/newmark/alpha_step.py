@@ -6,6 +6,7 @@ from nivel.integrate.loop.run import END, FACTORISATIONS, START, TOLERANCE, run_
 from nivel.integrate.loop.step_control import EXACT, fastest_turn
 from nivel.integrate.newmark.residual_newton import apply_turns, iterate
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.rows import add_times, clear, copy
 from nivel.kernels.core.lanes import slope, unit
 from nivel.kernels.core.status import NOT_CONVERGED, OK, SINGULAR
 from nivel.kernels.record.hook import call_family, call_hook
@@ -87,8 +88,7 @@ def prepare(run, newton, n, h):
     ratio = h / c[LAST_STEP] if c[LAST_STEP] > 0.0 else 1.0
     share = (1.0 - c[ALPHA_F]) / (1.0 - c[ALPHA_M])
     share_x = (1.0 - c[DELTA_F]) / (1.0 - c[DELTA_M])
-    for i in range(y.shape[0]):
-        newton.base[i] = y[i]
+    copy(y, newton.base)
     for k in range(n):
         v, vdot = y[positions + k], stages[VDOT, k]
         a = vdot + ratio * (stages[A, k] - vdot)
@@ -110,8 +110,7 @@ def begin_frictions(machine, y, h, t):
     """What rows of frictions with stiction need to know of the accepted state y: rates and efforts. Returns a status."""
     record = record_at(machine)
     residual, friction = record.residual, record.friction
-    for i in range(y.shape[0]):
-        residual.y[i] = y[i]
+    copy(y, residual.y)
     status = call_hook(machine, RESIDUAL, 0, t)
     for k in range(residual.stiction.shape[0]):
         residual.begun[k] = residual.rate[k]
@@ -139,8 +138,7 @@ def attempt(machine, history, h, end, tolerance):
     run, record = run_at(history), record_at(machine)
     passes = record.hooks.address[PASS] != 0
     if passes:
-        for i in range(run.y.shape[0]):
-            record.residual.y[i] = run.y[i]
+        copy(run.y, record.residual.y)
         call_hook(machine, PASS, LOCK, end)
     status = solve_step(machine, history, h, end, tolerance)
     if passes and status == OK:
@@ -271,8 +269,7 @@ def find_filter(machine, t, cq, cv, cx):
     tau, stick[0] = stick[0], np.inf
     status = differentiate(machine, t, cq, cv, cx, POSITIONS)
     stick[0] = tau
-    for p in range(newton.value.shape[0]):
-        newton.filter.value[p] = newton.value[p]
+    copy(newton.value, newton.filter.value)
     return factorise_entries(newton, newton.filter, record.control.failure) if status == OK else status
 
 
@@ -427,14 +424,12 @@ def split(machine, history, t, row, fast):
     run = run_at(history)
     stages = run.stages
     status = OK
-    for k in range(stages.shape[1]):
-        stages[fast, k] = 0.0
+    clear(stages[fast])
     for fold in range(FOLDS):
         if status == OK:
             status = keep_slow(machine, t, stages[row])
         sign = 1.0 if fold == 0 else (-3.0 if fold == 1 else (3.0 if fold == 2 else -1.0))
-        for k in range(stages.shape[1]):
-            stages[fast, k] += sign * stages[row, k]
+        add_times(sign, stages[row], stages[fast])
     return status
 
 
@@ -465,10 +460,8 @@ def filtered_error(machine, history, t, h):
             status = keep_slow(machine, t, run.stages[SPEED])
     if status != OK:
         return np.inf, np.inf
-    change, bend = (
-        size_of_displacement(run, newton, FAST_CHANGE, cq, cx),
-        size_of_displacement(run, newton, FAST_BEND, cq, cx),
-    )
+    change = size_of_displacement(run, newton, FAST_CHANGE, cq, cx)
+    bend = size_of_displacement(run, newton, FAST_BEND, cq, cx)
     amplitude = max(change * change / bend, bend) if bend > 0.0 else 0.0
     slow = size_of_error(run, newton, h) / part_of(run, h)
     largest = max(2.0 * amplitude, size_of_sway(run, record.residual, newton, h))

@@ -15,6 +15,7 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.rotation import rates_of_parameters
+from nivel.kernels.algebra.rows import add, copy
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_hook
 from nivel.kernels.record.record import NONE, RESIDUAL, record_at
@@ -59,20 +60,16 @@ def forget_moved(run):
 @leaf
 def copy_unknowns(residual, run, vdot, lam):
     """Accelerations and multipliers into two rows; of multipliers as many as have room."""
-    for k in range(residual.vdot.shape[0]):
-        run.stages[vdot, k] = residual.vdot[k]
-    for k in range(min(residual.lam.shape[0], run.y.shape[0])):
-        run.stages[lam, k] = residual.lam[k]
+    copy(residual.vdot, run.stages[vdot])
+    copy(residual.lam, run.stages[lam])
 
 
 @leaf
 def keep_made_at(machine, run, t, cq, cv, cx):
     """The matrix is made at the state in `residual`, at time t, with these coefficients."""
     newton, residual = record_at(machine).newton, record_at(machine).residual
-    for i in range(run.y.shape[0]):
-        run.stages[Y, i] = residual.y[i]
-    for k in range(residual.vdot.shape[0]):
-        run.stages[CHANGE, k] = newton.change[k]
+    copy(residual.y, run.stages[Y])
+    copy(newton.change, run.stages[CHANGE])
     copy_unknowns(residual, run, VDOT, LAM)
     c = run.numbers
     c[MADE_AT], c[MADE_CQ], c[MADE_CV], c[MADE_CX], c[KNOWN] = t, cq, cv, cx, 0.0
@@ -110,8 +107,7 @@ def move_made_at(newton, residual, run, cq, cv, cx, far):
     n, states, stages = residual.vdot.shape[0], newton.state.shape[0], run.stages
     positions = np.int64(run.y.shape[0]) - n - states - 2
     y, x = residual.y, stages[MOVED]
-    for i in range(y.shape[0]):
-        y[i] = stages[Y, i]
+    copy(stages[Y], y)
     for k in range(n):
         along = far * real(x[k])
         p, axis = np.int64(newton.place[k, 0]), newton.place[k, 1]
@@ -216,10 +212,8 @@ def settle_correction(machine, run, waits):
     if size > (NEGLIGIBLE if waits else NOTHING):
         copy_unknowns(residual, run, KEPT_VDOT, KEPT_LAM)
         status = learn_direction(machine, run, size)
-        for k in range(n):
-            residual.vdot[k] = run.stages[KEPT_VDOT, k]
-        for k in range(multipliers):
-            residual.lam[k] = run.stages[KEPT_LAM, k]
+        copy(run.stages[KEPT_VDOT], residual.vdot)
+        copy(run.stages[KEPT_LAM], residual.lam)
         forget_moved(run)
     for i in range(run.y.shape[0]):
         run.stages[REST, i], run.stages[REST_LAM, i] = run.stages[MOVED, i], run.stages[MOVED_LAM, i]
@@ -232,6 +226,5 @@ def settle_correction(machine, run, waits):
             newton.b[k], newton.b[k + 1], newton.b[k + 2] = inverse_tangent(
                 newton.change[k : k + 3], (newton.b[k], newton.b[k + 1], newton.b[k + 2])
             )
-    for k in range(n):
-        newton.correction[k] += newton.b[k]
+    add(newton.b, newton.correction)
     return OK

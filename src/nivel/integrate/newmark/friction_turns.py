@@ -11,6 +11,7 @@ one at its foot, and the tangent leads nowhere. There the iteration goes from sp
 
 import numpy as np
 
+from nivel.kernels.algebra.rows import copy
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_hook
 from nivel.kernels.record.record import RESIDUAL, record_at
@@ -49,8 +50,7 @@ def release(residual):
 @leaf
 def keep_made(residual):
     """Remember what frictions did when the matrix was made."""
-    for k in range(residual.branch.shape[0]):
-        residual.made[k] = residual.branch[k]
+    copy(residual.branch, residual.made)
 
 
 @leaf

@@ -49,6 +49,7 @@ from nivel.integrate.newmark.correction_slopes import (
 from nivel.integrate.newmark.friction_turns import begin_turns, follow_turns, keep_made, next_seed, release
 from nivel.integrate.newmark.newton_state import find_state
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.rows import copy
 from nivel.kernels.core.lanes import is_whole, steepest
 from nivel.kernels.core.status import NOT_CONVERGED, NOT_FINITE, OK
 from nivel.kernels.record.hook import call_hook
@@ -123,8 +124,7 @@ def close_positions(machine, cq, cv):
         # C_q (cq δv̇) = -cq Ċ/cv is what the velocities' own change does to the positions
         b[first + k] = -value[first + k] + cq / cv * value[first + rows + k]
     solve(machine)
-    for i in range(n):
-        newton.moved[i] = b[i]
+    copy(b, newton.moved)
     for i in range(b.shape[0]):
         b[i], kept[i] = kept[i], b[i]
 
@@ -182,10 +182,8 @@ def take_change(newton, residual, b, moved, share):
 @leaf
 def keep_change(newton):
     """Remember the change just taken, which may have to be taken back."""
-    for k in range(newton.b.shape[0]):
-        newton.before[k] = newton.b[k]
-    for k in range(newton.moved.shape[0]):
-        newton.moved_before[k] = newton.moved[k]
+    copy(newton.b, newton.before)
+    copy(newton.moved, newton.moved_before)
 
 
 @leaf

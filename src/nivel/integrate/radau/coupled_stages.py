@@ -20,6 +20,7 @@ import numpy as np
 from nivel.integrate.radau.radau_constants import AA, A
 from nivel.kernels.algebra.lu import factorise_lu, solve_lu
 from nivel.kernels.algebra.rotation import angular_velocity
+from nivel.kernels.algebra.rows import clear, copy
 from nivel.kernels.core.status import NOT_CONVERGED, OK
 from nivel.kernels.record.record import NONE, record_at
 from nivel.kernels.residual.shifted_matrix import find_parts, keep_multipliers
@@ -35,8 +36,7 @@ def put_aside(machine):
     """Keep the derivatives at the begin of the step, and its multipliers."""
     record = record_at(machine)
     copy_parts(record.newton.shifted, BEGIN)
-    for k in range(record.residual.lam.shape[0]):
-        record.newton.lam[k] = record.residual.lam[k]
+    copy(record.residual.lam, record.newton.lam)
 
 
 @leaf
@@ -46,10 +46,8 @@ def bring_back(machine, y):
     shifted, own, residual = record.newton.shifted, record.newton.shifted.coupled, record.residual
     for p in range(shifted.M.shape[0]):
         shifted.M[p], shifted.D[p], shifted.K[p] = own.M[BEGIN, p], own.D[BEGIN, p], own.K[BEGIN, p]
-    for k in range(residual.lam.shape[0]):
-        residual.lam[k] = record.newton.lam[k]
-    for i in range(y.shape[0]):
-        residual.y[i] = y[i]
+    copy(record.newton.lam, residual.lam)
+    copy(y, residual.y)
 
 
 @leaf
@@ -67,8 +65,7 @@ def find_stage_parts(machine, stage, t, y, rate):
     keep_multipliers(machine)
     status = find_parts(machine, t, y, rate)
     copy_parts(shifted, stage)
-    for i in range(y.shape[0]):
-        shifted.coupled.state[stage, i] = y[i]
+    copy(y, shifted.coupled.state[stage])
     return status
 
 
@@ -210,8 +207,7 @@ def load_right_side(newton, positions, h):
             turn += 1
             for i in range(3):
                 angular_velocity(own.state[i, p : p + 4], d[4 * i : 4 * i + 4], own.moved[i, k : k + 3])
-    for u in range(b.shape[0]):
-        b[u] = 0.0
+    clear(b)
     for j in range(n + newton.state.shape[0]):
         for e in range(newton.entry_start[j], newton.entry_start[j + 1]):
             row, p = np.int64(newton.entry[e, 0]), newton.entry[e, 1]

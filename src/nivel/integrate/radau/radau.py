@@ -15,7 +15,6 @@ from nivel.integrate.loop.dense import wanted
 from nivel.integrate.loop.run import (
     BOUND,
     DENSE,
-    EVALUATIONS,
     FACTORISATIONS,
     ITERATIONS,
     POWERS,
@@ -25,6 +24,7 @@ from nivel.integrate.loop.run import (
     STEP_SIGNATURE,
     TIME,
     TOLERANCE,
+    evaluate_at,
     run_at,
 )
 from nivel.integrate.loop.step_control import (
@@ -44,10 +44,10 @@ from nivel.integrate.loop.step_control import (
 from nivel.integrate.radau.coupled_stages import bring_back, factorise_stages, find_stage_parts, put_aside, solve_stages
 from nivel.integrate.radau.radau_constants import BEND, COLLOCATION, GAMMA, LEFT, LEFT_PAIR, MU, RIGHT, RIGHT_PAIR, A, C
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.rows import copy
 from nivel.kernels.core.lanes import is_whole, slope, steepest, unit
 from nivel.kernels.core.number import number_of
 from nivel.kernels.core.status import NOT_CONVERGED, OK
-from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import record_at
 from nivel.kernels.residual.shifted_matrix import factorise_shifted, find_parts, keep_multipliers, solve_shifted_parts
 from nivel.native.duals import LANES
@@ -150,8 +150,7 @@ def evaluate_stages(evaluate, machine, history, h, end, renewed):
         for i in range(run.y.shape[0]):
             run.trial[i] = run.y[i] + run.stages[Z + m, i]
         t = run.clock[TIME] + C[m] * h if m < 2 else end
-        status = call_evaluate(evaluate, machine, t, run.trial, run.stages[RATES + m])
-        run.counter[EVALUATIONS] += 1
+        status = evaluate_at(evaluate, machine, run, t, run.trial, run.stages[RATES + m])
         if status == OK and renewed:
             status = find_stage_parts(machine, m, t, run.trial, run.stages[RATES + m])
         if status != OK:
@@ -432,8 +431,7 @@ def smooth(machine, history, h, slope):
     for i in range(run.y.shape[0]):
         factors.r[i] = (h * slope[i] - run.stages[RATES, i]) / GAMMA
     solve_shifted_parts(machine, factors, real(h) / GAMMA)
-    for i in range(run.y.shape[0]):
-        run.stages[ERROR, i] = factors.r[i]
+    copy(factors.r, run.stages[ERROR])
 
 
 @leaf
@@ -453,8 +451,7 @@ def estimate(evaluate, machine, history, h, tolerance):
         settling = 0.0 if run.numbers[REPEATED] == 1.0 or run.numbers[LAST_STEP] == 0.0 else SETTLING * error
         for i in range(run.y.shape[0]):
             run.trial[i] = run.y[i] + run.stages[ERROR, i]
-        run.counter[EVALUATIONS] += 1
-        if call_evaluate(evaluate, machine, run.clock[TIME], run.trial, run.scratch) == OK:
+        if evaluate_at(evaluate, machine, run, run.clock[TIME], run.trial, run.scratch) == OK:
             smooth(machine, history, h, run.scratch)
             settled = size(run, run.stages[ERROR]) / tolerance
             error = settling if settled < settling else settled
@@ -474,8 +471,7 @@ def accept(run, h):
     run.numbers[LAST_STEP] = h
     if wanted(run):
         for k in range(4):
-            for i in range(run.y.shape[0]):
-                run.dense[k, i] = stages[LAST + k, i]
+            copy(stages[LAST + k], run.dense[k])
         run.counter[DENSE], run.counter[POWERS] = 4, 1
 
 

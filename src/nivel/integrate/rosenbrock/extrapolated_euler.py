@@ -25,8 +25,19 @@ from nivel.elements.circuits.tangent import find_slopes, slope_by_mass
 from nivel.elements.contacts.impact import meet
 from nivel.elements.contacts.impact import part as separate
 from nivel.integrate.facts import IntegratorFacts
-from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, KNOWN, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
+from nivel.integrate.loop.run import (
+    EVALUATIONS,
+    FACTORISATIONS,
+    KNOWN,
+    REACHED,
+    STEP,
+    STEP_SIGNATURE,
+    TIME,
+    evaluate_at,
+    run_at,
+)
 from nivel.integrate.rosenbrock.parts import LARGEST, step_in_parts
+from nivel.kernels.algebra.rows import advance, copy
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import NONE, record_at
@@ -55,13 +66,11 @@ NO_STATE, PLAIN, EXTRAPOLATED = 0, 1, 2
 def advance_linearly(machine, run, y, share, into):
     """into := y + share (1 - share J)⁻¹ f with f in RATE; `into` may be y."""
     factors = record_at(machine).newton.shifted.real
-    for i in range(y.shape[0]):
-        factors.r[i] = run.stages[RATE, i]
+    copy(run.stages[RATE], factors.r)
     apart = mass_apart(machine, factors.r)
     solve_shifted_parts(machine, factors, share)
     balance_mass(machine, factors.r, apart)
-    for i in range(y.shape[0]):
-        into[i] = y[i] + share * factors.r[i]
+    advance(y, share, factors.r, into)
 
 
 @leaf
@@ -87,8 +96,7 @@ def pressure_difference(evaluate, machine, run):
     run.counter[EVALUATIONS] += 2
     if call_evaluate(evaluate, machine, run.clock[REACHED], run.stages[WHOLE], run.scratch) != OK:
         return np.inf
-    for k in range(pressure.shape[0]):
-        kept[k] = pressure[k]
+    copy(pressure, kept)
     if call_evaluate(evaluate, machine, run.clock[REACHED], run.stages[HALVES], run.scratch) != OK:
         return np.inf
     largest = 0.0
@@ -241,8 +249,7 @@ def difference_in_step(evaluate, machine, run):
     run.counter[KNOWN] = 0
     if not is_state(machine, run.trial) or not is_state(machine, run.stages[WHOLE]):
         return np.inf
-    run.counter[EVALUATIONS] += 1
-    if call_evaluate(evaluate, machine, run.clock[REACHED], run.trial, run.scratch) != OK:
+    if evaluate_at(evaluate, machine, run, run.clock[REACHED], run.trial, run.scratch) != OK:
         return np.inf
     difference = judged_difference(machine, run)
     # where constraints are corrected, the state to be accepted is another one
@@ -341,8 +348,7 @@ def renew_nothing(machine, s):
 @stage
 def leave_rate(machine, y, f, s, other):
     """Without circuits nothing is stiff: k = f."""
-    for i in range(f.shape[0]):
-        other[i] = f[i]
+    copy(f, other)
     return OK
 
 
@@ -379,8 +385,7 @@ def prepare_flexible(machine, number, s):
 @stage
 def leave_modes(machine, y, f, s, other):
     """k of the modes and joints without circuits. Returns a status."""
-    for i in range(f.shape[0]):
-        other[i] = f[i]
+    copy(f, other)
     return solve_shifted_modes(machine, y, other, s)
 
 

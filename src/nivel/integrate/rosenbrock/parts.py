@@ -8,6 +8,7 @@ import numpy as np
 
 from nivel.integrate.loop.run import KNOWN, REACHED, REJECTED, STEP, TIME, run_at
 from nivel.integrate.loop.step_control import evaluate_accepted
+from nivel.kernels.algebra.rows import copy
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import record_at
 from nivel.native.function import shared
@@ -35,8 +36,7 @@ def step_in_parts(evaluate, machine, history, attempt, first):
         status, difference = attempt(evaluate, machine, history)
         if difference <= LARGEST or size == 1:
             if status == OK:
-                for i in range(y.shape[0]):
-                    y[i] = run.trial[i]
+                copy(run.trial, y)
             if not difference <= LARGEST:
                 guard[0] += 1.0
             if difference < np.inf:
@@ -47,8 +47,7 @@ def step_in_parts(evaluate, machine, history, attempt, first):
         else:
             if size == PARTS:
                 run.counter[REJECTED] += 1
-                for i in range(y.shape[0]):
-                    kept[i] = run.rate[i]
+                copy(run.rate, kept)
             size //= 2
             status = OK
             run.counter[KNOWN] = 0
@@ -59,6 +58,5 @@ def step_in_parts(evaluate, machine, history, attempt, first):
             status = evaluate_accepted(evaluate, machine, history)
     if clock[STEP] != h:
         clock[TIME], clock[REACHED], clock[STEP] = begin, end, h
-        for i in range(y.shape[0]):
-            run.rate[i] = kept[i]
+        copy(kept, run.rate)
     return status

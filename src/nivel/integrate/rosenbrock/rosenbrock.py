@@ -16,10 +16,18 @@ import numpy as np
 
 from nivel.elements.circuits.ledger import balance_mass, mass_apart
 from nivel.integrate.facts import IntegratorFacts
-from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
+from nivel.integrate.loop.run import (
+    FACTORISATIONS,
+    REACHED,
+    STEP,
+    STEP_SIGNATURE,
+    TIME,
+    evaluate_at,
+    run_at,
+)
+from nivel.kernels.algebra.rows import add_times, advance, copy
 from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import OK
-from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.residual.shifted_along import ROWS as OF_SLOPES
 from nivel.kernels.residual.shifted_along import prepare_shifted, return_to, settle_solution, solve_shifted
 from nivel.motion.modal_shift import factorise_shifted_modes, solve_shifted_modes
@@ -36,8 +44,7 @@ ROWS = 3 + OF_SLOPES
 def solve_for(machine, run, t, row, share, ahead):
     """Overwrite a row of run.stages with the solution of (1 - share J) k = row + share ahead f_t. Returns a status."""
     x, given = run.stages[row], run.stages[GIVEN]
-    for i in range(x.shape[0]):
-        given[i] = x[i]
+    copy(x, given)
     apart = mass_apart(machine, x)
     status = solve_shifted(machine, t, x, share, ahead)
     if status == OK and is_whole(machine):
@@ -54,20 +61,16 @@ def ros2(evaluate, machine, history):
     share = GAMMA * h
     status = prepare_shifted(machine, t, y, run.rate, share)
     run.counter[FACTORISATIONS] += 1
-    for i in range(y.shape[0]):
-        first[i] = run.rate[i]
+    copy(run.rate, first)
     if status == OK:
         status = solve_for(machine, run, t, FIRST, share, 1.0)
     if status != OK:
         return status
-    for i in range(y.shape[0]):
-        run.trial[i] = y[i] + h * first[i]
-    status = call_evaluate(evaluate, machine, run.clock[REACHED], run.trial, second)
-    run.counter[EVALUATIONS] += 1
+    advance(y, h, first, run.trial)
+    status = evaluate_at(evaluate, machine, run, run.clock[REACHED], run.trial, second)
     if status != OK:
         return status
-    for i in range(y.shape[0]):
-        second[i] -= 2.0 * first[i]
+    add_times(-2.0, first, second)
     return_to(machine, y, run.rate)
     status = solve_for(machine, run, t, SECOND, share, -1.0)
     for i in range(y.shape[0]):
@@ -93,22 +96,18 @@ def modal_ros2(evaluate, machine, history):
     status = factorise_shifted_modes(machine, share)
     if status != OK:
         return status
-    for i in range(y.shape[0]):
-        first[i] = run.rate[i]
+    copy(run.rate, first)
     status = solve_shifted_modes(machine, y, first, share)
     if status != OK:
         return status
-    for i in range(y.shape[0]):
-        run.trial[i] = y[i] + h * first[i]
-    status = call_evaluate(evaluate, machine, run.clock[REACHED], run.trial, second)
-    run.counter[EVALUATIONS] += 1
+    advance(y, h, first, run.trial)
+    status = evaluate_at(evaluate, machine, run, run.clock[REACHED], run.trial, second)
     if status == OK:
         status = factorise_shifted_modes(machine, share)
     run.counter[FACTORISATIONS] += 2
     if status != OK:
         return status
-    for i in range(y.shape[0]):
-        second[i] -= 2.0 * first[i]
+    add_times(-2.0, first, second)
     status = solve_shifted_modes(machine, y, second, share)
     for i in range(y.shape[0]):
         y[i] += 0.5 * h * (3.0 * first[i] + second[i])

@@ -10,7 +10,6 @@ import numpy as np
 
 from nivel.integrate.loop.run import (
     DENSE,
-    EVALUATIONS,
     FACTORISATIONS,
     ITERATIONS,
     MOST_ITERATIONS,
@@ -18,12 +17,14 @@ from nivel.integrate.loop.run import (
     ORDER,
     POWERS,
     REACHED,
+    evaluate_at,
     run_at,
 )
 from nivel.integrate.loop.step_control import size
 from nivel.integrate.multistep.multistep import renew
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.lu import solve_lu
+from nivel.kernels.algebra.rows import add, add_times, copy, subtract
 from nivel.kernels.core.lanes import is_whole, steepest
 from nivel.kernels.core.status import NOT_CONVERGED, OK
 from nivel.kernels.record.hook import call_evaluate
@@ -60,8 +61,7 @@ def predict(run, ratio):
     for k in range(q):
         for m in range(q - k):
             j = q - 1 - m
-            for i in range(n):
-                stages[PREDICTED + j, i] += stages[PREDICTED + j + 1, i]
+            add(stages[PREDICTED + j + 1], stages[PREDICTED + j])
 
 
 @leaf
@@ -76,22 +76,19 @@ def accept(run, c):
 def add_polynomial(run, p, degree, row, factor):
     """Z += factor p(x) times row `row` of the stages, for a polynomial of this degree without a constant."""
     for k in range(1, degree + 1):
-        for i in range(run.y.shape[0]):
-            run.stages[Z + k, i] += factor * p[k] * run.stages[row, i]
+        add_times(factor * p[k], run.stages[row], run.stages[Z + k])
 
 
 @leaf
 def fill_dense(run):
     """The dense output of the step that Z has just reached: the same polynomial about the begin of the step, where it is `previous`."""
-    q, n, dense = run.counter[ORDER], run.y.shape[0], run.dense
+    q, dense = run.counter[ORDER], run.dense
     for k in range(1, q + 1):
-        for i in range(n):
-            dense[k - 1, i] = run.stages[Z + k, i]
+        copy(run.stages[Z + k], dense[k - 1])
     for k in range(q):
         for m in range(q - max(k, 1)):
             j = q - 1 - m
-            for i in range(n):
-                dense[j - 1, i] -= dense[j, i]
+            subtract(dense[j], dense[j - 1])
     run.counter[DENSE], run.counter[POWERS] = q, 1
 
 
@@ -143,8 +140,7 @@ def corrector(find_matrix, solve_matrix):
             run.trial[i] = predicted[i]
         before = 0.0
         for m in range(min(MOST, run.counter[MOST_ITERATIONS])):
-            status = call_evaluate(evaluate, machine, run.clock[REACHED], run.trial, rate)
-            run.counter[EVALUATIONS] += 1
+            status = evaluate_at(evaluate, machine, run, run.clock[REACHED], run.trial, rate)
             run.counter[ITERATIONS] += 1
             if status != OK:
                 return status
@@ -176,11 +172,9 @@ def corrector(find_matrix, solve_matrix):
     def renew(evaluate, machine, history, share):
         """The factors of 1 - share ∂f/∂y at the predicted state. Returns a status."""
         run = run_at(history)
-        for i in range(run.y.shape[0]):
-            run.trial[i] = run.stages[PREDICTED, i]
+        copy(run.stages[PREDICTED], run.trial)
         run.numbers[SHARE] = 0.0
-        status = call_evaluate(evaluate, machine, run.clock[REACHED], run.trial, run.stages[RATE])
-        run.counter[EVALUATIONS] += 1
+        status = evaluate_at(evaluate, machine, run, run.clock[REACHED], run.trial, run.stages[RATE])
         if status == OK:
             status = find_matrix(evaluate, machine, history, share, run.stages[RATE])
             run.counter[FACTORISATIONS] += 1
@@ -207,8 +201,7 @@ def corrector(find_matrix, solve_matrix):
     def damp(machine, history, source, x):
         """x := `source`, with Newton's method less of the vibrations that are stiff: (1 - (h/c_1) ∂f/∂y)⁻¹ of it. Returns a status."""
         run = run_at(history)
-        for i in range(x.shape[0]):
-            x[i] = source[i]
+        copy(source, x)
         return solve_matrix(machine, history, x) if run.counter[NEWTON] == 1 else OK
 
     return correct, damp

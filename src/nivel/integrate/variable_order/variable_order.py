@@ -64,6 +64,7 @@ from nivel.integrate.variable_order.variable_corrector import (
     solve_exact_matrix,
     solve_matrix,
 )
+from nivel.kernels.algebra.rows import clear, copy
 from nivel.kernels.core.status import OK
 from nivel.native.entry import entry
 from nivel.native.function import leaf
@@ -104,8 +105,7 @@ def measure_contraction(run):
 @leaf
 def renew(run, family):
     """The polynomial through the accepted state as the loop corrected it."""
-    for i in range(run.y.shape[0]):
-        run.stages[Z, i] = run.y[i]
+    copy(run.y, run.stages[Z])
     if family == ADAMS and run.counter[NEWTON] == 0:
         for i in range(run.y.shape[0]):
             run.stages[Z + 1, i] = run.numbers[SCALED] * run.rate[i]
@@ -128,8 +128,7 @@ def advance_order(run, family, change, K):
     p = numbers[WORK : WORK + MOST_ORDER + 4]
     xi = numbers[XI : XI + MOST_ORDER + 3]
     if change > 0:
-        for i in range(run.y.shape[0]):
-            run.stages[Z + q + 1, i] = 0.0
+        clear(run.stages[Z + q + 1])
         monic(family, q + 1, xi, p)
         add_polynomial(run, p, q + 1, CORRECTION, 1.0 / K)
     else:

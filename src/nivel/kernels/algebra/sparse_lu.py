@@ -22,6 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from nivel.kernels.algebra.lu import magnitude
+from nivel.kernels.algebra.rows import clear
 from nivel.kernels.core.arrays import U1
 from nivel.native.function import leaf
 
@@ -75,12 +76,9 @@ def factorise_sparse_lu(tables, value, L, U, Dinv, work):
 @leaf
 def _enter(tables, value, L, U, Dinv):
     """Put the entries of A where the factors start from; Dinv counts what is taken from each pivot."""
-    for p in range(L.shape[0]):
-        L[p] = 0.0
-    for p in range(U.shape[0]):
-        U[p] = 0.0
-    for k in range(Dinv.shape[0]):
-        Dinv[k] = 0.0
+    clear(L)
+    clear(U)
+    clear(Dinv)
     for e in range(tables.upper_from.shape[0]):
         U[tables.upper_at[e]] = value[tables.upper_from[e]]
     for e in range(tables.lower_from.shape[0]):

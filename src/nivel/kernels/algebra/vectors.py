@@ -16,6 +16,18 @@ def minus(x, y):
 
 
 @leaf
+def plus_cross(x, y, z):
+    """x + y × z."""
+    return x[0] + y[1] * z[2] - y[2] * z[1], x[1] + y[2] * z[0] - y[0] * z[2], x[2] + y[0] * z[1] - y[1] * z[0]
+
+
+@leaf
+def moment(J, u):
+    """n + u × f: moment about the frame's origin of the part J = (f, n) of a row, whose marker is at u."""
+    return plus_cross((J[3], J[4], J[5]), u, J)
+
+
+@leaf
 def times(s, x):
     """s x."""
     return s * x[0], s * x[1], s * x[2]

@@ -19,25 +19,14 @@ def constraint_rows(bodies, markers, constraints):
         coincident(markers, constraints, constraints.s[k])
     J = constraints.J
     for k in range(constraints.d1.shape[0]):
-        i, p, j, o, row, part = (
-            constraints.d1[k, 0],
-            constraints.d1[k, 1],
-            constraints.d1[k, 2],
-            constraints.d1[k, 3],
-            constraints.d1[k, 4],
-            constraints.d1[k, 5],
-        )
+        i, p, j, o = constraints.d1[k, 0], constraints.d1[k, 1], constraints.d1[k, 2], constraints.d1[k, 3]
+        row, part = constraints.d1[k, 4], constraints.d1[k, 5]
         # perpendicular axes, C = aᵀb = 0 (eqs. 6, 31)
         C, rate, bias = cosine(bodies, markers, i, p, j, o, J[part], J[part + 1])
         constraints.C[row], constraints.Cdot[row], constraints.gamma[row] = C, rate, -bias
     for k in range(constraints.d2.shape[0]):
-        i, p, j, row, part = (
-            constraints.d2[k, 0],
-            constraints.d2[k, 1],
-            constraints.d2[k, 2],
-            constraints.d2[k, 3],
-            constraints.d2[k, 4],
-        )
+        i, p, j, row = constraints.d2[k, 0], constraints.d2[k, 1], constraints.d2[k, 2], constraints.d2[k, 3]
+        part = constraints.d2[k, 4]
         # axis perpendicular to the distance, C = aᵀd = 0 (eqs. 8, 32), valid at d = 0, too
         C, rate, bias = translation(bodies, markers, i, p, j, J[part], J[part + 1])
         constraints.C[row], constraints.Cdot[row], constraints.gamma[row] = C, rate, -bias

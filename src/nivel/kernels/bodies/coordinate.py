@@ -107,14 +107,8 @@ def translation(bodies, markers, i, p, j, Ji, Jj):
 @stage
 def distance(markers, i, j, Ji, Jj):
     """(|d|, rate, bias), fills Ji, Jj; at d = 0, where no direction is defined, the rate and J are zero."""
-    ri, rj, vi, vj, gi, gj = (
-        markers.r[i],
-        markers.r[j],
-        markers.rdot[i],
-        markers.rdot[j],
-        markers.bias[i],
-        markers.bias[j],
-    )
+    ri, rj, vi, vj = markers.r[i], markers.r[j], markers.rdot[i], markers.rdot[j]
+    gi, gj = markers.bias[i], markers.bias[j]
     d0, d1, d2 = rj[0] - ri[0], rj[1] - ri[1], rj[2] - ri[2]
     v0, v1, v2 = vj[0] - vi[0], vj[1] - vi[1], vj[2] - vi[2]
     length = np.sqrt(d0 * d0 + d1 * d1 + d2 * d2)
@@ -148,14 +142,8 @@ def moment(bodies, markers, i, j, Ji, Jj):
     wi, wj = bodies.omega[markers.body[i]], bodies.omega[markers.body[j]]
     a = (markers.A[i, 0, 2], markers.A[i, 1, 2], markers.A[i, 2, 2])
     b = (markers.A[j, 0, 2], markers.A[j, 1, 2], markers.A[j, 2, 2])
-    ri, rj, vi, vj, gi, gj = (
-        markers.r[i],
-        markers.r[j],
-        markers.rdot[i],
-        markers.rdot[j],
-        markers.bias[i],
-        markers.bias[j],
-    )
+    ri, rj, vi, vj = markers.r[i], markers.r[j], markers.rdot[i], markers.rdot[j]
+    gi, gj = markers.bias[i], markers.bias[j]
     d = (rj[0] - ri[0], rj[1] - ri[1], rj[2] - ri[2])
     v = (vj[0] - vi[0], vj[1] - vi[1], vj[2] - vi[2])
     g = (gj[0] - gi[0], gj[1] - gi[1], gj[2] - gi[2])

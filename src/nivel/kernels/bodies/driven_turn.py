@@ -132,9 +132,6 @@ def note_motions(machine):
         if coordinates.what[q, 0] < TURN_X:
             continue
         part = coordinates.start[q]
-        w, wj = (
-            bodies.omega[markers.body[coordinates.what[q, 1]]],
-            bodies.omega[markers.body[coordinates.what[q, 2]]],
-        )
+        w, wj = bodies.omega[markers.body[coordinates.what[q, 1]]], bodies.omega[markers.body[coordinates.what[q, 2]]]
         moved = dot(coordinates.J[part, 3:], w) + dot(coordinates.J[part + 1, 3:], wj)
         constraints.motion[k] = moved - coordinates.rate[q]

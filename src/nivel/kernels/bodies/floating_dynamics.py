@@ -89,22 +89,11 @@ def velocity_forces(bodies, own, f, out):
         dot_modes(B[1], own.pdot, first, n),
         dot_modes(B[2], own.pdot, first, n),
     )
-    T0, T1, T2, T3, T4, T5 = (
-        T[0:n],
-        T[most : most + n],
-        T[2 * most : 2 * most + n],
-        T[3 * most : 3 * most + n],
-        T[4 * most : 4 * most + n],
-        T[5 * most : 5 * most + n],
-    )
-    xx, yy, zz, xy, yz, zx = (
-        2.0 * dot_modes(T0, own.pdot, first, n),
-        2.0 * dot_modes(T1, own.pdot, first, n),
-        2.0 * dot_modes(T2, own.pdot, first, n),
-        2.0 * dot_modes(T3, own.pdot, first, n),
-        2.0 * dot_modes(T4, own.pdot, first, n),
-        2.0 * dot_modes(T5, own.pdot, first, n),
-    )
+    T0, T1, T2, T3 = T[0:n], T[most : most + n], T[2 * most : 2 * most + n], T[3 * most : 3 * most + n]
+    T4, T5 = T[4 * most : 4 * most + n], T[5 * most : 5 * most + n]
+    xx, yy = 2.0 * dot_modes(T0, own.pdot, first, n), 2.0 * dot_modes(T1, own.pdot, first, n)
+    zz, xy = 2.0 * dot_modes(T2, own.pdot, first, n), 2.0 * dot_modes(T3, own.pdot, first, n)
+    yz, zx = 2.0 * dot_modes(T4, own.pdot, first, n), 2.0 * dot_modes(T5, own.pdot, first, n)
     momentum = (
         dot(J[0], w) + dot_modes(B[3], own.pdot, first, n),
         dot(J[1], w) + dot_modes(B[4], own.pdot, first, n),
@@ -357,14 +346,8 @@ def needed_by_frame(bodies, own, f, alpha, a, out):
     """(moment, force) that the frame of flexible body f needs for ᾱ and R̈ in axes of the body, less all applied and velocity forces."""
     b = own.body[f]
     first, n = modes_of(own, f)
-    A, S, J, B, F, q = (
-        bodies.A[b],
-        own.first[f],
-        own.inertia[f],
-        own.coupling[f],
-        bodies.wrench[b],
-        own.velocity_force[f],
-    )
+    A, S, J, B, F = bodies.A[b], own.first[f], own.inertia[f], own.coupling[f], bodies.wrench[b]
+    q = own.velocity_force[f]
     swing, heave, m = cross(alpha, S), cross(S, a), bodies.mass[b]
     force = (
         m * a[0] + swing[0] - q[0] + dot_modes(B[0], own.pddot, first, n),

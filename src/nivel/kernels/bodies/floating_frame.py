@@ -241,11 +241,8 @@ def add_bias(machine):
         k = own.block[e, 1]
         if k == NONE:
             continue
-        row, part, marker = (
-            saddle.block[own.block[e, 0], 0],
-            saddle.block[own.block[e, 0], 1],
-            saddle.block[own.block[e, 0], 2],
-        )
+        row, part = saddle.block[own.block[e, 0], 0], saddle.block[own.block[e, 0], 1]
+        marker = saddle.block[own.block[e, 0], 2]
         J, bias = constraints.J[part], own.bias[k]
         across = cross(bias, markers.u[marker])
         for i in range(3):

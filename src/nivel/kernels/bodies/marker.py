@@ -1,6 +1,7 @@
 """Markers: frames on bodies. Joints, forces and sensors see these only."""
 
 from nivel.kernels.algebra.spatial import centripetal, multiply
+from nivel.kernels.algebra.vectors import plus_cross, put
 from nivel.native.function import stage
 
 
@@ -38,9 +39,7 @@ def move_marker(bodies, markers, k):
     """Velocity ṙ = Ṙ + ω × u and bias acceleration ω × (ω × u) of marker k."""
     b = markers.body[k]
     w, u, V = bodies.omega[b], markers.u[k], bodies.Rdot[b]
-    markers.rdot[k, 0] = V[0] + w[1] * u[2] - w[2] * u[1]
-    markers.rdot[k, 1] = V[1] + w[2] * u[0] - w[0] * u[2]
-    markers.rdot[k, 2] = V[2] + w[0] * u[1] - w[1] * u[0]
+    put(markers.rdot[k], 0, plus_cross(V, w, u))
     centripetal(w, u, markers.bias[k])
 
 

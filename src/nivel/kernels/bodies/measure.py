@@ -31,11 +31,8 @@ def combined(coordinates, k):
     part, last = np.int64(coordinates.start[k]), np.int64(coordinates.start[k + 1])
     first = np.int64(coordinates.station[part + 1])
     factor = coordinates.station[part]
-    value, rate, bias = (
-        factor * coordinates.value[first],
-        factor * coordinates.rate[first],
-        factor * coordinates.bias[first],
-    )
+    value, rate = factor * coordinates.value[first], factor * coordinates.rate[first]
+    bias = factor * coordinates.bias[first]
     begin = part
     while part < last:
         factor, q = coordinates.station[part], np.int64(coordinates.station[part + 1])

@@ -1,7 +1,8 @@
 """Rigid bodies: pose and velocity from the state, weight, and energy."""
 
 from nivel.kernels.algebra.rotation import rotation_matrix
-from nivel.kernels.algebra.spatial import dot, multiply
+from nivel.kernels.algebra.spatial import cross, dot, multiply
+from nivel.kernels.algebra.vectors import plus_cross, put, seen, times
 from nivel.native.function import stage
 
 
@@ -30,29 +31,24 @@ def load_weight(bodies):
         F = bodies.wrench[b]
         c = bodies.c[b]
         m = bodies.mass[b]
-        F[0], F[1], F[2] = m * g[0], m * g[1], m * g[2]
-        F[3] = c[1] * F[2] - c[2] * F[1]
-        F[4] = c[2] * F[0] - c[0] * F[2]
-        F[5] = c[0] * F[1] - c[1] * F[0]
+        put(F, 0, times(m, g))
+        put(F, 3, cross(c, F))
 
 
 @stage
 def turn_to_body_axes(bodies, b):
     """ω̄ of body b from ω; not all coordinates need it."""
     A, w = bodies.A[b], bodies.omega[b]
-    for i in range(3):
-        bodies.omega_b[b, i] = A[0, i] * w[0] + A[1, i] * w[1] + A[2, i] * w[2]
+    put(bodies.omega_b[b], 0, seen(A, w))
 
 
 @stage
 def kinetic_energy(bodies, b):
     """½ m |Ṙ + ω × c|² + ½ ω̄ᵀ J ω̄ of body b [J]."""
     w, c, V, J, w_b = bodies.omega[b], bodies.c[b], bodies.Rdot[b], bodies.inertia_b[b], bodies.omega_b[b]
-    vx = V[0] + w[1] * c[2] - w[2] * c[1]
-    vy = V[1] + w[2] * c[0] - w[0] * c[2]
-    vz = V[2] + w[0] * c[1] - w[1] * c[0]
+    v = plus_cross(V, w, c)
     turning = w_b[0] * dot(J[0], w_b) + w_b[1] * dot(J[1], w_b) + w_b[2] * dot(J[2], w_b)
-    return 0.5 * bodies.mass[b] * (vx * vx + vy * vy + vz * vz) + 0.5 * turning
+    return 0.5 * bodies.mass[b] * dot(v, v) + 0.5 * turning
 
 
 @stage

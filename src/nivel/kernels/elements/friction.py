@@ -18,6 +18,7 @@ left to them.
 import numpy as np
 
 from nivel.kernels.algebra.analytic import absolute, maximum, real, tanh
+from nivel.kernels.algebra.rows import add_times, clear
 from nivel.kernels.algebra.spatial import cross
 from nivel.kernels.algebra.vectors import minus, plus, seen, times
 from nivel.kernels.bodies.patch_coordinate import KEPT, PROPOSED, RESTING, RESTS
@@ -148,8 +149,7 @@ def respond(machine):
         k = acting(friction, a)
         change, response = friction.change[k], friction.response[k]
         for body in range(change.shape[0]):
-            for i in range(width):
-                change[body, i] = 0.0
+            clear(change[body])
         for n in range(friction.block[k, 0], friction.block[k, 1]):
             for i in range(width):
                 change[saddle.block[n, 3], i] += saddle.W[n, i]
@@ -787,10 +787,8 @@ def room(record, k):
     """The share of the change in `work` that the patch from friction k on has room for within static friction, 1 at most."""
     friction, q = record.friction, record.friction.columns[k, COORDINATE]
     own = friction.number[k, STATIC] if friction.columns[k, ROTATES] == 1 else 1.0
-    reach, limit = (
-        real(record.coordinates.value[q + 1]),
-        friction.number[k, STATIC] * real(record.coordinates.value[q]) / own,
-    )
+    reach = real(record.coordinates.value[q + 1])
+    limit = friction.number[k, STATIC] * real(record.coordinates.value[q]) / own
     square, both, change = -limit * limit, 0.0, 0.0
     for a in range(friction.columns[k, COUNT]):
         arm = own if a < 2 else reach
@@ -831,11 +829,8 @@ def report_patch(machine, k):
     friction, coordinates, out = record.friction, record.coordinates, record.outputs.value
     first, q = friction.columns[k, OUTPUT], friction.columns[k, COORDINATE]
     load, x, y = coordinates.value[q], coordinates.rate[q], coordinates.rate[q + 1]
-    squared, power, given = (
-        friction.force[k] * friction.force[k] + friction.force[k + 1] * friction.force[k + 1],
-        0.0 * load,
-        0.0 * load,
-    )
+    squared, power = friction.force[k] * friction.force[k] + friction.force[k + 1] * friction.force[k + 1], 0.0 * load
+    given = 0.0 * load
     for a in range(friction.columns[k, COUNT]):
         power += friction.force[k + a] * coordinates.rate[q + a]
         given += friction.force[k + a] * friction.number[k + a, OVER]
@@ -942,6 +937,5 @@ def apply(machine, number, t):
             control.failure[0] = k
             return BRISTLE_TOO_FAST
         for body in range(saddle.z.shape[0]):
-            for i in range(saddle.z.shape[1]):
-                saddle.z[body, i] += force * friction.change[k, body, i]
+            add_times(force, friction.change[k, body], saddle.z[body])
     return OK

@@ -1,7 +1,7 @@
 """Wrenches: generalised forces of forces and torques on bodies."""
 
 from nivel.kernels.algebra.spatial import cross, dot
-from nivel.kernels.algebra.vectors import minus
+from nivel.kernels.algebra.vectors import minus, plus_cross, times
 from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf, stage
 
@@ -26,13 +26,8 @@ def add_coordinate_force(machine, q, effort):
     for part in range(coordinates.start[q], coordinates.start[q + 1]):
         m = coordinates.part_marker[part]
         J, u = coordinates.J[part], markers.u[m]
-        x, y, z = effort * J[0], effort * J[1], effort * J[2]
-        moment = (
-            effort * J[3] + u[1] * z - u[2] * y,
-            effort * J[4] + u[2] * x - u[0] * z,
-            effort * J[5] + u[0] * y - u[1] * x,
-        )
-        add_wrench(bodies, markers.body[m], (x, y, z), moment)
+        force, couple = times(effort, J), times(effort, (J[3], J[4], J[5]))
+        add_wrench(bodies, markers.body[m], force, plus_cross(couple, u, force))
     return effort * coordinates.rate[q]
 
 
@@ -66,4 +61,4 @@ def add_torque(bodies, b, torque):
 def velocity_at(bodies, b, p):
     """Velocity of the point of body b that is at p."""
     V, w, u = bodies.Rdot[b], bodies.omega[b], minus(p, bodies.R[b])
-    return V[0] + w[1] * u[2] - w[2] * u[1], V[1] + w[2] * u[0] - w[0] * u[2], V[2] + w[0] * u[1] - w[1] * u[0]
+    return plus_cross(V, w, u)

@@ -5,6 +5,7 @@ A variable is known by its number here; `Outputs.column` has the first column of
 
 import numpy as np
 
+from nivel.kernels.algebra.rows import copy
 from nivel.kernels.bodies.floating_dynamics import flexible_kinetic_energy
 from nivel.kernels.bodies.rigid import kinetic_energy, potential_energy
 from nivel.kernels.bodies.shared_mass import shared_kinetic_energy
@@ -52,8 +53,7 @@ def accept(machine, t):
     elements = record.elements
     call_hook(machine, MEASURE, ACCEPTED, t)
     for k in range(elements.memory.shape[0]):
-        for i in range(elements.memory.shape[1]):
-            elements.memory[k, i] = elements.proposal[k, i]
+        copy(elements.proposal[k], elements.memory[k])
 
 
 @leaf

@@ -7,6 +7,7 @@ enough; with that of the state itself one solution and its refinement end at rou
 import numpy as np
 
 from nivel.kernels.algebra.rotation import rates_of_parameters
+from nivel.kernels.algebra.rows import copy
 from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import NOT_CONVERGED, NOT_FINITE, OK
 from nivel.kernels.record.hook import call_hook
@@ -81,8 +82,7 @@ def balance(machine, t, y):
     """
     record = record_at(machine)
     own, newton = record.residual, record.newton
-    for i in range(y.shape[0]):
-        own.y[i] = y[i]
+    copy(y, own.y)
     for i in range(own.vdot.shape[0]):
         if not np.abs(own.vdot[i]) < np.inf:
             own.vdot[i] = 0.0

@@ -16,6 +16,7 @@ Methods that solve for accelerations at the end of a step do it again on the ele
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.rows import add, clear, copy
 from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_hook, family
@@ -103,8 +104,7 @@ def find_asked(machine, t):
     if status != OK:
         return status
     newton.balanced[0] = 1.0
-    for i in range(b.shape[0]):
-        b[i] = 0.0
+    clear(b)
     add_asked(record, -1.0)
     for k in range(tree.slider.shape[0]):
         x = own.acceleration[tree.node[tree.slider[k, 0], 0]]
@@ -129,11 +129,9 @@ def load_missed(machine, t):
     """`newton.balance.b` := the right side once more, `newton.last` := accelerations and multipliers. Returns a status."""
     record = record_at(machine)
     own, newton = record.residual, record.newton
-    n, first = own.vdot.shape[0], own.vdot.shape[0] + newton.state.shape[0]
-    for i in range(newton.balance.b.shape[0]):
-        newton.balance.b[i] = 0.0
-    for i in range(n):
-        newton.last[i] = own.vdot[i]
+    first = own.vdot.shape[0] + newton.state.shape[0]
+    clear(newton.balance.b)
+    copy(own.vdot, newton.last)
     for r in range(own.lam.shape[0]):
         newton.last[first + r] = own.lam[r]
     status = call_hook(machine, RESIDUAL, 0, t)
@@ -147,22 +145,19 @@ def settle_change(machine, t):
     moved by the change, misses of the right side in `newton.balance.b`."""
     record = record_at(machine)
     own, newton = record.residual, record.newton
-    f, n, first = newton.balance, own.vdot.shape[0], own.vdot.shape[0] + newton.state.shape[0]
-    for i in range(n):
-        own.vdot[i] += newton.b[i]
+    f, first = newton.balance, own.vdot.shape[0] + newton.state.shape[0]
+    add(newton.b, own.vdot)
     for r in range(own.lam.shape[0]):
         own.lam[r] += newton.b[first + r]
     call_hook(machine, RESIDUAL, 0, t)
     add_asked(record, -1.0)
-    for i in range(n):
-        own.vdot[i] = newton.last[i]
+    copy(newton.last, own.vdot)
     for r in range(own.lam.shape[0]):
         own.lam[r] = newton.last[first + r]
     for i in range(f.b.shape[0]):
         f.b[i] -= real(f.b[i])
     solve_entries(newton, f)
-    for i in range(f.b.shape[0]):
-        newton.b[i] += f.b[i]
+    add(f.b, newton.b)
 
 
 @stage
@@ -177,8 +172,7 @@ def go_on(machine, t):
     status = find_asked(machine, t)
     if status == OK:
         solve_entries(newton, f)
-        for i in range(f.b.shape[0]):
-            newton.b[i] = f.b[i]
+        copy(f.b, newton.b)
         if is_whole(machine):
             status = load_missed(machine, t)
     for k in range(tree.slider.shape[0]):

@@ -9,6 +9,7 @@ only how accelerations of bodies come from v̇, and generalised forces from wren
 """
 
 from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.algebra.vectors import minus, plus, plus_cross, put, seen, times, turned
 from nivel.kernels.bodies.floating_dynamics import GATHER
 from nivel.kernels.bodies.rigid import load_weight
 from nivel.kernels.bodies.shared_mass import add_shared_inertia
@@ -73,33 +74,16 @@ def inertial_wrenches(machine):
     record = record_at(machine)
     bodies, residual = record.bodies, record.residual
     for b in range(bodies.mass.shape[0]):
-        A, J, w, c, F, m = (
-            bodies.A[b],
-            bodies.inertia_origin_b[b],
-            bodies.omega[b],
-            bodies.c[b],
-            bodies.wrench[b],
-            bodies.mass[b],
-        )
+        A, J, w, c, F = bodies.A[b], bodies.inertia_origin_b[b], bodies.omega[b], bodies.c[b], bodies.wrench[b]
+        m = bodies.mass[b]
         x, out = residual.acceleration[b], residual.wrench[b]
         alpha, a = (x[0], x[1], x[2]), (x[3], x[4], x[5])
         turning, wc, ww, lever = cross(alpha, c), dot(w, c), dot(w, w), cross(c, a)
         for i in range(3):
             out[3 + i] = m * (a[i] + turning[i] + w[i] * wc - c[i] * ww) - F[i]
-        w0 = A[0, 0] * w[0] + A[1, 0] * w[1] + A[2, 0] * w[2]
-        w1 = A[0, 1] * w[0] + A[1, 1] * w[1] + A[2, 1] * w[2]
-        w2 = A[0, 2] * w[0] + A[1, 2] * w[1] + A[2, 2] * w[2]
-        a0 = A[0, 0] * x[0] + A[1, 0] * x[1] + A[2, 0] * x[2]
-        a1 = A[0, 1] * x[0] + A[1, 1] * x[1] + A[2, 1] * x[2]
-        a2 = A[0, 2] * x[0] + A[1, 2] * x[1] + A[2, 2] * x[2]
-        h0 = J[0, 0] * w0 + J[0, 1] * w1 + J[0, 2] * w2
-        h1 = J[1, 0] * w0 + J[1, 1] * w1 + J[1, 2] * w2
-        h2 = J[2, 0] * w0 + J[2, 1] * w1 + J[2, 2] * w2
-        n0 = J[0, 0] * a0 + J[0, 1] * a1 + J[0, 2] * a2 + w1 * h2 - w2 * h1
-        n1 = J[1, 0] * a0 + J[1, 1] * a1 + J[1, 2] * a2 + w2 * h0 - w0 * h2
-        n2 = J[2, 0] * a0 + J[2, 1] * a1 + J[2, 2] * a2 + w0 * h1 - w1 * h0
-        for i in range(3):
-            out[i] = A[i, 0] * n0 + A[i, 1] * n1 + A[i, 2] * n2 + m * lever[i] - F[3 + i]
+        w_b = seen(A, w)
+        moment_b = plus_cross(turned(J, seen(A, x)), w_b, turned(J, w_b))
+        put(out, 0, minus(plus(turned(A, moment_b), times(m, lever)), (F[3], F[4], F[5])))
     add_shared_inertia(machine)
 
 
@@ -133,12 +117,8 @@ def fill_residual(machine, t, read, accelerate, write):
 def write_rows(machine, first):
     """Rates of the states of forces, C, Ċ and C̈ into `residual.value` from `first` on; the rows of frictions are there already."""
     record = record_at(machine)
-    residual, constraints, markers, rate = (
-        record.residual,
-        record.constraints,
-        record.markers,
-        record.elements.state_rate,
-    )
+    residual, constraints, markers = record.residual, record.constraints, record.markers
+    rate = record.elements.state_rate
     value, rows, states = residual.value, residual.lam.shape[0], rate.shape[0]
     for i in range(states):
         value[first + i] = rate[i]
@@ -152,11 +132,8 @@ def write_rows(machine, first):
         value[at + 2 * rows + k] = fed_back - constraints.gamma[row]
     at += 2 * rows
     for p in range(residual.part.shape[0]):
-        J, u, x = (
-            constraints.J[residual.part[p, 1]],
-            markers.u[residual.part[p, 2]],
-            residual.acceleration[residual.part[p, 3]],
-        )
-        turning = x[1] * u[2] - x[2] * u[1], x[2] * u[0] - x[0] * u[2], x[0] * u[1] - x[1] * u[0]
+        J, u = constraints.J[residual.part[p, 1]], markers.u[residual.part[p, 2]]
+        x = residual.acceleration[residual.part[p, 3]]
+        turning = cross(x, u)
         along = J[0] * (x[3] + turning[0]) + J[1] * (x[4] + turning[1]) + J[2] * (x[5] + turning[2])
         value[at + residual.part[p, 0]] += along + J[3] * x[0] + J[4] * x[1] + J[5] * x[2]

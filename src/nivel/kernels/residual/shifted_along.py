@@ -14,6 +14,7 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.rotation import angular_velocity, rates_of_parameters
+from nivel.kernels.algebra.rows import advance, clear, copy
 from nivel.kernels.core.lanes import is_whole, slope, unit
 from nivel.kernels.core.number import number_of
 from nivel.kernels.core.status import OK
@@ -32,12 +33,10 @@ def return_to(machine, y, rate):
     newton, residual = record.newton, record.residual
     n = residual.vdot.shape[0]
     positions = np.int64(y.shape[0]) - n - newton.state.shape[0] - 2
-    for i in range(y.shape[0]):
-        residual.y[i] = y[i]
+    copy(y, residual.y)
     for k in range(n):
         residual.vdot[k] = rate[positions + k]
-    for k in range(residual.lam.shape[0]):
-        residual.lam[k] = newton.lam[k]
+    copy(newton.lam, residual.lam)
 
 
 @leaf
@@ -45,8 +44,7 @@ def prepare_shifted(machine, t, y, rate, s):
     """Factors for the state y, last evaluated with the result `rate`. Returns a status."""
     record = record_at(machine)
     newton, residual = record.newton, record.residual
-    for k in range(residual.vdot.shape[0]):
-        newton.change[k] = 0.0
+    clear(newton.change)
     for k in range(residual.lam.shape[0]):
         newton.lam[k] = known_multiplier(record, k)
     return_to(machine, y, rate)
@@ -164,10 +162,8 @@ ROWS = 7
 def keep_base(newton, residual, work):
     """The state, and the solution in newton.b, into the rows of the work, which are as long as y."""
     n, most = residual.vdot.shape[0] + newton.state.shape[0], residual.y.shape[0]
-    for i in range(residual.y.shape[0]):
-        work[Y, i] = residual.y[i]
-    for k in range(residual.vdot.shape[0]):
-        work[VDOT, k] = residual.vdot[k]
+    copy(residual.y, work[Y])
+    copy(residual.vdot, work[VDOT])
     for k in range(n):
         work[FOUND, k], work[MISSED, k] = newton.b[k], 0.0
     for k in range(min(residual.lam.shape[0], most)):
@@ -177,12 +173,9 @@ def keep_base(newton, residual, work):
 @leaf
 def bring_back(residual, work):
     """The state is what it was."""
-    for i in range(residual.y.shape[0]):
-        residual.y[i] = work[Y, i]
-    for k in range(residual.vdot.shape[0]):
-        residual.vdot[k] = work[VDOT, k]
-    for k in range(min(residual.lam.shape[0], residual.y.shape[0])):
-        residual.lam[k] = work[LAM, k]
+    copy(work[Y], residual.y)
+    copy(work[VDOT], residual.vdot)
+    copy(work[LAM], residual.lam)
 
 
 @leaf
@@ -206,8 +199,7 @@ def move_far_along(newton, residual, work, r, s, far):
             rates_of_parameters(base[p : p + 4], turn, change)
             for i in range(4):
                 y[p + i] = base[p + i] + far * change[i]
-    for k in range(min(residual.lam.shape[0], r.shape[0])):
-        residual.lam[k] = work[LAM, k] + far * work[FOUND_LAM, k]
+    advance(work[LAM], far, work[FOUND_LAM], residual.lam)
 
 
 @leaf

@@ -16,6 +16,7 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.rotation import angular_velocity
+from nivel.kernels.algebra.rows import clear, copy
 from nivel.kernels.record.record import NONE, record_at
 from nivel.kernels.residual.residual import known_multiplier
 from nivel.kernels.residual.tangent import differentiate_parts
@@ -38,8 +39,7 @@ def find_parts(machine, t, y, rate):
     residual = record.residual
     n = residual.vdot.shape[0]
     positions = np.int64(y.shape[0]) - n - record.newton.state.shape[0] - 2
-    for i in range(y.shape[0]):
-        residual.y[i] = y[i]
+    copy(y, residual.y)
     for k in range(n):
         residual.vdot[k] = rate[positions + k]
     return differentiate_parts(machine, t)
@@ -134,8 +134,7 @@ def load_right_side(newton, factors, positions):
     """factors.b := -D (r_v, r_x) - K moved."""
     b, r, moved, D, K = factors.b, factors.r, factors.moved, newton.shifted.D, newton.shifted.K
     n = newton.place.shape[0]
-    for i in range(b.shape[0]):
-        b[i] = 0.0
+    clear(b)
     for j in range(n + newton.state.shape[0]):
         along = r[positions + j]
         for e in range(newton.entry_start[j], newton.entry_start[j + 1]):

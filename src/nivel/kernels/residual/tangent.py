@@ -51,11 +51,7 @@ def move_part(newton, moving, j, factor, part):
     else:
         p, axis, half = np.int64(newton.place[j, 0]), newton.place[j, 1], 0.5 * factor
         nothing = 0.0 * half
-        x, y, z = (
-            half if axis == 0 else nothing,
-            half if axis == 1 else nothing,
-            half if axis == 2 else nothing,
-        )
+        x, y, z = half if axis == 0 else nothing, half if axis == 1 else nothing, half if axis == 2 else nothing
         e0, e1, e2, e3 = moving.y[p], moving.y[p + 1], moving.y[p + 2], moving.y[p + 3]
         moving.y[p] += -e1 * x - e2 * y - e3 * z
         moving.y[p + 1] += e0 * x - e3 * y + e2 * z

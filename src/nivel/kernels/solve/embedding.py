@@ -2,7 +2,9 @@
 
 import numpy as np
 
-from nivel.kernels.algebra.spatial import dot
+from nivel.kernels.algebra.rows import add_times, clear, subtract
+from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.algebra.vectors import combined, minus, plus_cross, put, seen, times, turned
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import record_at
 from nivel.kernels.solve.flexible_partition import flexible_forces, moves_with_modes, times_flexible_mass
@@ -21,16 +23,10 @@ def generalised_forces(machine):
             continue
         F, c, w, w_b = bodies.wrench[b], bodies.c[b], bodies.omega[b], bodies.omega_b[b]
         A, J, m = bodies.A[b], bodies.inertia_b[b], bodies.mass[b]
-        wc, ww = dot(w, c), dot(w, w)
-        p0, p1, p2 = m * (w[0] * wc - c[0] * ww), m * (w[1] * wc - c[1] * ww), m * (w[2] * wc - c[2] * ww)
-        t0 = F[3] - (c[1] * p2 - c[2] * p1)
-        t1 = F[4] - (c[2] * p0 - c[0] * p2)
-        t2 = F[5] - (c[0] * p1 - c[1] * p0)
-        h0, h1, h2 = dot(J[0], w_b), dot(J[1], w_b), dot(J[2], w_b)
-        Q[6 * b], Q[6 * b + 1], Q[6 * b + 2] = F[0] - p0, F[1] - p1, F[2] - p2
-        Q[6 * b + 3] = A[0, 0] * t0 + A[1, 0] * t1 + A[2, 0] * t2 - (w_b[1] * h2 - w_b[2] * h1)
-        Q[6 * b + 4] = A[0, 1] * t0 + A[1, 1] * t1 + A[2, 1] * t2 - (w_b[2] * h0 - w_b[0] * h2)
-        Q[6 * b + 5] = A[0, 2] * t0 + A[1, 2] * t1 + A[2, 2] * t2 - (w_b[0] * h1 - w_b[1] * h0)
+        pull = times(m, combined(dot(w, c), w, -dot(w, w), c))
+        torque = minus((F[3], F[4], F[5]), cross(c, pull))
+        put(Q, 6 * b, minus(F, pull))
+        put(Q, 6 * b + 3, minus(seen(A, torque), cross(w_b, turned(J, w_b))))
 
 
 @leaf
@@ -48,8 +44,7 @@ def subtract_inertia(machine, x):
     """Q -= M x."""
     partition = record_at(machine).partition
     times_masses(machine, x, partition.p)
-    for i in range(x.shape[0]):
-        partition.Q[i] -= partition.p[i]
+    subtract(partition.p, partition.Q)
 
 
 @leaf
@@ -72,11 +67,9 @@ def embed(machine):
                 total += MB[k, i] * B[j, i]
             H[k, j] = total
     solve_definite(H, u)
-    for i in range(n):
-        v[i] = 0.0
+    clear(v)
     for k in range(free):
-        for i in range(n):
-            v[i] += u[k] * B[k, i]
+        add_times(u[k], B[k], v)
     subtract_inertia(machine, v)
     for i in range(n):
         v[i] += partition.D[i]
@@ -104,14 +97,11 @@ def times_mass(bodies, b, x, out):
     """out = M x of body b about its frame origin for x = (Ṙ, ω̄) or its derivative: (m a, J̄ ω̄ + Aᵀ (c × m a)), a = Ṙ + ω × c."""
     A, c, J, m = bodies.A[b], bodies.c[b], bodies.inertia_b[b], bodies.mass[b]
     w_b = x[3:6]
-    w0, w1, w2 = dot(A[0], w_b), dot(A[1], w_b), dot(A[2], w_b)
-    p0 = m * (x[0] + w1 * c[2] - w2 * c[1])
-    p1 = m * (x[1] + w2 * c[0] - w0 * c[2])
-    p2 = m * (x[2] + w0 * c[1] - w1 * c[0])
-    l0, l1, l2 = c[1] * p2 - c[2] * p1, c[2] * p0 - c[0] * p2, c[0] * p1 - c[1] * p0
-    out[0], out[1], out[2] = p0, p1, p2
+    momentum = times(m, plus_cross(x, turned(A, w_b), c))
+    lever = cross(c, momentum)
+    put(out, 0, momentum)
     for i in range(3):
-        out[3 + i] = dot(J[i], w_b) + A[0, i] * l0 + A[1, i] * l1 + A[2, i] * l2
+        out[3 + i] = dot(J[i], w_b) + A[0, i] * lever[0] + A[1, i] * lever[1] + A[2, i] * lever[2]
 
 
 @leaf

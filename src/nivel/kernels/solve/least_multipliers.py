@@ -8,6 +8,7 @@ smaller by ε over its share of S, and adds nothing that moves nothing. Its fact
 import numpy as np
 
 from nivel.kernels.algebra.dense import IMMOBILE, solve_pivoted
+from nivel.kernels.algebra.rows import clear
 from nivel.kernels.algebra.sparse import DEPENDENT, factorise
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import record_at
@@ -41,8 +42,7 @@ def spread_multipliers(machine):
 def product(saddle, lam):
     """b := S λ."""
     b = saddle.b
-    for k in range(b.shape[0]):
-        b[k] = 0.0
+    clear(b)
     for k in range(b.shape[0]):
         row = saddle.order[k]
         own = lam[saddle.row[row]]

@@ -10,6 +10,9 @@ the assembled machine, so no tolerance decides it anew; rows beyond it follow fr
 import numpy as np
 
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.rows import add_times
+from nivel.kernels.algebra.spatial import cross
+from nivel.kernels.algebra.vectors import minus, moment, seen
 from nivel.kernels.core.status import OK, SINGULAR
 from nivel.kernels.record.record import record_at
 from nivel.kernels.solve.flexible_partition import fill_flexible_rows, moves_with_modes, weigh_flexible_row
@@ -43,14 +46,10 @@ def fill_rows(machine):
         if moves_with_modes(record, b):
             continue
         entries, A, u = E[partition.row_place[saddle.block[k, 0]]], bodies.A[b], markers.u[marker]
-        f0, f1, f2 = J[part, 0], J[part, 1], J[part, 2]
-        n0 = J[part, 3] + u[1] * f2 - u[2] * f1
-        n1 = J[part, 4] + u[2] * f0 - u[0] * f2
-        n2 = J[part, 5] + u[0] * f1 - u[1] * f0
+        turning = seen(A, moment(J[part], u))
         for i in range(3):
             entries[place[6 * b + i]] += unit[6 * b + i] * J[part, i]
-            turning = A[0, i] * n0 + A[1, i] * n1 + A[2, i] * n2
-            entries[place[6 * b + 3 + i]] += unit[6 * b + 3 + i] * turning
+            entries[place[6 * b + 3 + i]] += unit[6 * b + 3 + i] * turning[i]
     for k in range(rows):
         square = 0.0
         for j in range(n):
@@ -78,10 +77,7 @@ def weigh_rows(machine):
             n0, n1, n2 = n0 / unit[6 * b + 3], n1 / unit[6 * b + 4], n2 / unit[6 * b + 5]
             A, K, c = bodies.A[b], bodies.whitener_b[b], bodies.c[b]
             # moment about the centre of mass, body axes: n̄ - Aᵀ (c × f)
-            x0, x1, x2 = c[1] * f2 - c[2] * f1, c[2] * f0 - c[0] * f2, c[0] * f1 - c[1] * f0
-            n0 -= A[0, 0] * x0 + A[1, 0] * x1 + A[2, 0] * x2
-            n1 -= A[0, 1] * x0 + A[1, 1] * x1 + A[2, 1] * x2
-            n2 -= A[0, 2] * x0 + A[1, 2] * x1 + A[2, 2] * x2
+            n0, n1, n2 = minus((n0, n1, n2), seen(A, cross(c, (f0, f1, f2))))
             w0 = K[0, 0] * n0
             w1 = K[1, 0] * n0 + K[1, 1] * n1
             w2 = K[2, 0] * n0 + K[2, 1] * n1 + K[2, 2] * n2
@@ -286,8 +282,7 @@ def remove(direction, x):
     share = 0.0
     for k in range(x.shape[0]):
         share += direction[k] * x[k]
-    for k in range(x.shape[0]):
-        x[k] -= share * direction[k]
+    add_times(-share, direction, x)
 
 
 @leaf

@@ -8,6 +8,7 @@ import numpy as np
 
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.dense import factorise_pivoted, gather, solve_pivoted
+from nivel.kernels.algebra.rows import clear, copy
 from nivel.kernels.algebra.sparse import DEPENDENT, factorise, solve
 from nivel.kernels.core.number import where
 from nivel.kernels.core.status import MULTIPLIERS_NOT_FOUND, OK, SINGULAR
@@ -42,8 +43,7 @@ def factorise_rows(machine, width):
     record = record_at(machine)
     saddle = record.saddle
     W, S = saddle.W, saddle.S
-    for p in range(S.shape[0]):
-        S[p] = 0.0
+    clear(S)
     for p in range(saddle.pair.shape[0]):
         a, b = saddle.pair[p, 0], saddle.pair[p, 1]
         total = W[a, 0] * W[b, 0]
@@ -130,8 +130,7 @@ def iterate_rows(saddle, most, forces, settled):
     of dependent rows, never settled, have no part in. It ends below the share `settled` of `forces`. Returns a status.
     """
     b, x, before = saddle.b, saddle.target, saddle.before
-    for k in range(b.shape[0]):
-        x[k] = b[k]
+    copy(b, x)
     solve(saddle)
     for k in range(b.shape[0]):
         forces += real(b[k] * (x[k] - saddle.shift[k] * b[k]))
@@ -149,8 +148,7 @@ def iterate_rows(saddle, most, forces, settled):
             done += saddle.shift[k] * real((before[k] - b[k]) * b[k])
         if done <= settled * forces:
             break
-    for k in range(b.shape[0]):
-        b[k] = x[k]
+    copy(x, b)
     left = 1.0 - min((done / last) ** 0.5, SLOWEST) if last > done > 0.0 else 1.0 - SLOWEST
     return OK if done <= max(settled, GOOD_ENOUGH * left * left) * forces else MULTIPLIERS_NOT_FOUND
 
@@ -206,8 +204,7 @@ def correction(machine, violation, share, width):
         saddle.b[k] = share * violation[saddle.row[k]]
     solve_rows(machine, 0.0)
     for body in range(saddle.z.shape[0]):
-        for i in range(width):
-            saddle.z[body, i] = 0.0
+        clear(saddle.z[body])
     subtract_rows(saddle, width)
 
 

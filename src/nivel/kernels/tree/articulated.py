@@ -16,6 +16,7 @@ their generalised forces, the form in which `nivel.kernels.solve.saddle` takes t
 import numpy as np
 
 from nivel.kernels.algebra.spatial import cross
+from nivel.kernels.algebra.vectors import moment
 from nivel.kernels.elements.friction import is_apart
 from nivel.kernels.record.record import record_at
 from nivel.kernels.tree.tree import swing
@@ -247,17 +248,11 @@ def load_row(machine, row, slot):
     for p in range(tree.part_start[row], tree.part_start[row + 1]):
         J, marker, b = record.constraints.J[tree.part[p, 1]], tree.part[p, 2], tree.part[p, 3]
         u, alpha, a, wrench = markers.u[marker], tree.alpha0[b], tree.Rddot0[b], tree.load[slot, b]
-        f0, f1, f2 = J[0], J[1], J[2]
-        n0 = J[3] + u[1] * f2 - u[2] * f1
-        n1 = J[4] + u[2] * f0 - u[0] * f2
-        n2 = J[5] + u[0] * f1 - u[1] * f0
-        bias += f0 * a[0] + f1 * a[1] + f2 * a[2] + n0 * alpha[0] + n1 * alpha[1] + n2 * alpha[2]
-        wrench[0] += n0
-        wrench[1] += n1
-        wrench[2] += n2
-        wrench[3] += f0
-        wrench[4] += f1
-        wrench[5] += f2
+        n = moment(J, u)
+        bias += J[0] * a[0] + J[1] * a[1] + J[2] * a[2] + n[0] * alpha[0] + n[1] * alpha[1] + n[2] * alpha[2]
+        for i in range(3):
+            wrench[i] += n[i]
+            wrench[3 + i] += J[i]
     return bias
 
 

@@ -14,6 +14,7 @@ or on a marker that its modes do not move (of a node of a beam with gradients), 
 import numpy as np
 
 from nivel.kernels.algebra.spatial import cross, multiply
+from nivel.kernels.algebra.vectors import turned
 from nivel.kernels.bodies.floating_frame import AXES, SPIN, bend_body, find_node, modes_of, move_node, place_frame
 from nivel.kernels.bodies.rigid import turn_to_body_axes
 from nivel.kernels.record.record import MODAL, NONE, OUTWARD, record_at
@@ -40,11 +41,7 @@ def carry_body(bodies, tree, own, modal, n):
     product(bodies.A[r], tree.first[n], tree.axes)
     Ar = bodies.A[r]
     # from the carrier's origin to the node, or where this is none of the modes to the origin
-    d = (
-        Ar[0, 0] * number[4] + Ar[0, 1] * number[5] + Ar[0, 2] * number[6],
-        Ar[1, 0] * number[4] + Ar[1, 1] * number[5] + Ar[1, 2] * number[6],
-        Ar[2, 0] * number[4] + Ar[2, 1] * number[5] + Ar[2, 2] * number[6],
-    )
+    d = turned(Ar, (number[4], number[5], number[6]))
     of_node, push = cross(wr, d), swing(alphar, wr, d)
     if k == NONE:
         for i in range(3):

@@ -53,15 +53,8 @@ def applied_on_modes(bodies, tree, own, modal, f):
     accelerations that others are counted from."""
     b = own.body[f]
     first, n = modes_of(own, f)
-    A, S, J, B, F, q, out = (
-        bodies.A[b],
-        own.first[f],
-        own.inertia[f],
-        own.coupling[f],
-        bodies.wrench[b],
-        own.velocity_force[f],
-        tree.wrench[b],
-    )
+    A, S, J, B, F = bodies.A[b], own.first[f], own.inertia[f], own.coupling[f], bodies.wrench[b]
+    q, out = own.velocity_force[f], tree.wrench[b]
     velocity_forces(bodies, own, f, q)
     x, y = tree.Rddot0[b], tree.alpha0[b]
     a = dot(A[:, 0], x), dot(A[:, 1], x), dot(A[:, 2], x)
@@ -140,13 +133,8 @@ def whiten_flexible_bundle(machine, first, last):
     for p in range(start, stop):
         n, block = tree.path[p, 0], np.int64(tree.path[p, 1])
         node = tree.node[n]
-        child, parent, kind, low, columns = (
-            node[0],
-            node[1],
-            node[2],
-            np.int64(node[4]),
-            np.int64(node[5]) - np.int64(node[4]),
-        )
+        child, parent, kind, low = node[0], node[1], node[2], np.int64(node[4])
+        columns = np.int64(node[5]) - np.int64(node[4])
         for i in range(count):
             x = tree.load[i, child]
             if kind == OUTWARD:

@@ -13,6 +13,7 @@ with … = u_1 u_2 w_1 × w_2 of a universal joint, whose second axis is fixed i
 import numpy as np
 
 from nivel.kernels.algebra.spatial import cross, dot, multiply
+from nivel.kernels.algebra.vectors import turned
 from nivel.kernels.record.record import NONE, UNIVERSAL, record_at
 from nivel.kernels.tree.joints import BY_ADDRESS, call_motion, move_joint, plus, times
 from nivel.native.function import leaf, stage
@@ -47,11 +48,7 @@ def move_child(machine, bodies, tree, n, y):
         Ap = bodies.A[parent]
         product(Ap, tree.first[n], tree.axes)
         axes = tree.axes
-        arm = (
-            Ap[0, 0] * number[4] + Ap[0, 1] * number[5] + Ap[0, 2] * number[6],
-            Ap[1, 0] * number[4] + Ap[1, 1] * number[5] + Ap[1, 2] * number[6],
-            Ap[2, 0] * number[4] + Ap[2, 1] * number[5] + Ap[2, 2] * number[6],
-        )
+        arm = turned(Ap, arm)
     alpha, a = tree.alpha0[child], tree.Rddot0[child]
     if kind >= BY_ADDRESS:
         call_motion(machine, n, y)

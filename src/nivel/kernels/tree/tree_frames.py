@@ -19,14 +19,8 @@ def show_frames(machine):
     record = record_at(machine)
     bodies, tree, frames = record.bodies, record.tree, record.frames
     for b in range(bodies.mass.shape[0]):
-        d, A, w, own, e, f = (
-            tree.delta[b],
-            bodies.A[b],
-            bodies.omega[b],
-            tree.own[b],
-            bodies.theta[b],
-            tree.own_theta[b],
-        )
+        d, A, w, own, e = tree.delta[b], bodies.A[b], bodies.omega[b], tree.own[b], bodies.theta[b]
+        f = tree.own_theta[b]
         alpha = (tree.alpha0[b, 0] + d[0], tree.alpha0[b, 1] + d[1], tree.alpha0[b, 2] + d[2])
         u = (dot(A[0], own), dot(A[1], own), dot(A[2], own))
         speed, acceleration = cross(w, u), swing(alpha, w, u)

@@ -35,11 +35,8 @@ def add_part(machine, p, factor):
     """Add `factor` times part p of the rows that are left to the wrench of its body."""
     record = record_at(machine)
     tree = record.tree
-    J, u, wrench = (
-        record.constraints.J[tree.part[p, 1]],
-        record.markers.u[tree.part[p, 2]],
-        tree.wrench[tree.part[p, 3]],
-    )
+    J, u = record.constraints.J[tree.part[p, 1]], record.markers.u[tree.part[p, 2]]
+    wrench = tree.wrench[tree.part[p, 3]]
     moment = cross(u, J)
     for i in range(3):
         wrench[i] += factor * (J[3 + i] + moment[i])

@@ -37,7 +37,7 @@ from nivel.system.saddle import friction_parts, friction_tables, moved_masses, s
 from nivel.system.signals.control import add_control, add_states, sampled_states
 from nivel.system.signals.sensors import sensor_columns
 from nivel.system.system import Equations, System
-from nivel.system.tables import empty, index_array
+from nivel.system.tables import empty, index_array, zeros
 
 
 def add_inputs(builder: SystemBuilder) -> None:
@@ -211,8 +211,7 @@ def _watched(builder: SystemBuilder) -> record.Watched:
         surface=index_array(surfaces, 2),
         switch=index_array(switches, 2),
         held=np.zeros(len(switches)),
-        value=np.zeros(count),
-        rate=np.zeros(count),
+        **zeros("value rate", count),
         followed=np.zeros(5, dtype=np.uint32),
     )
 

@@ -16,6 +16,7 @@ from nivel.kernels.record.hook import FAMILIES, Family
 from nivel.kernels.record.record import NONE, Hooks, Record
 from nivel.system.elimination.factor_plan import minimum_degree
 from nivel.system.system import System
+from nivel.system.tables import zeros
 
 Index = NDArray[np.uint32]
 # columns with the states that outputs of families are, at their first column
@@ -71,8 +72,7 @@ def _tables(system: System, family: Index) -> CircuitTangent:
         by_stroke=np.zeros((nodes, count)),
         effort=np.zeros((count, width)),
         slopes=np.zeros((size, width)),
-        direction=np.zeros((count, velocities)),
-        response=np.zeros((count, velocities)),
+        **zeros("direction response", count, velocities),
         compliance=np.zeros((count, count)),
         matrix=np.zeros((2, size, size)),
         b=np.zeros(size),

@@ -20,7 +20,7 @@ from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import MassProperties
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beam_nodes import GradientNode
-from nivel.system.tables import Array, index_array
+from nivel.system.tables import Array, index_array, zeros
 
 # of what ω_a ω_b does in each component of a symmetric tensor: those off the diagonal count twice
 SHARE = np.array([1.0, 1.0, 1.0, 0.5, 0.5, 0.5])
@@ -118,10 +118,8 @@ def modal_tree(
         link=index_array(link, 1),
         carrier=index_array(carrier, 1),
         heavy=index_array(heavy, 1),
-        shift=np.zeros(modes),
-        column=np.zeros((F, 6, most)),
-        effort=np.zeros(modes),
-        coupling=np.zeros((F, 6, most)),
+        **zeros("shift effort", modes),
+        **zeros("column coupling", F, 6, most),
         factor=np.zeros((F, most, most + 6)),
         push=np.zeros((6, most)),
         load=np.zeros((bundle, modes)),
@@ -162,10 +160,7 @@ def flexible_tables(
         of_coupling=_beside(turning + stiffening["of_turning"]),
         **{name: _beside(value) for name, value in stiffening.items()},
         block=index_array(block, 4),
-        p=np.zeros(m),
-        pdot=np.zeros(m),
-        pddot=np.zeros(m),
-        Q=np.zeros(m),
+        **zeros("p pdot pddot Q", m),
         first=np.zeros((F, 3)),
         inertia=np.zeros((F, 3, 3)),
         coupling=np.zeros((F, 6, n)),
@@ -174,8 +169,7 @@ def flexible_tables(
         scratch=np.zeros((2, 6 * n)),
         now=np.zeros((N, 6, n)),
         node=np.zeros((N, 29)),
-        displacement=np.zeros((N, 3, n)),
-        turn=np.zeros((N, 3, n)),
+        **zeros("displacement turn", N, 3, n),
         bias=np.zeros((N, 6)),
         root=np.zeros((F, 6, 6)),
     )

@@ -12,7 +12,7 @@ from nivel.kernels.record import implicit_record
 from nivel.kernels.record.record import NONE, Record
 from nivel.system.elimination.factor_plan import FactorPlan, TangentPlan, plan_tangent
 from nivel.system.system import Array, StateMap
-from nivel.system.tables import index_array
+from nivel.system.tables import index_array, zeros
 
 # share of the places of a full matrix that its factors need: above it exchanges of rows cost nothing
 MOSTLY_FULL = 0.6
@@ -58,17 +58,12 @@ def residual_tables(
         vdot=np.zeros(velocities),
         lam=np.zeros(rows),
         value=np.zeros(velocities + states + 3 * rows),
-        branch=np.zeros(len(stiction)),
-        made=np.zeros(len(stiction)),
+        **zeros("branch made limit rate begun", len(stiction)),
         bidden=np.full(len(stiction), np.nan),
-        limit=np.zeros(len(stiction)),
-        rate=np.zeros(len(stiction)),
-        begun=np.zeros(len(stiction)),
         span=np.zeros(1),
         tally=np.zeros(3 + len(stiction)),
         frozen=np.full(len(stiction), np.nan),
-        acceleration=np.zeros((bodies + 1, 6)),
-        wrench=np.zeros((bodies + 1, 6)),
+        **zeros("acceleration wrench", bodies + 1, 6),
         interval=implicit_record.StepResidual(
             numbers=np.array([0.0, 0.0, 0.0, float(bool(free))]),
             start=np.zeros((bodies if whole else 0, 12)),
@@ -111,9 +106,7 @@ def shifted_tables(plan: TangentPlan, place: Index, state: int) -> implicit_reco
     """For the derivatives planned, `place` of the velocities and entries of y."""
     entries, velocities = len(plan.factor.column), len(place)
     return implicit_record.Shifted(
-        M=np.zeros(entries),
-        D=np.zeros(entries),
-        K=np.zeros(entries),
+        **zeros("M D K", entries),
         real=real_factors(plan.factor, velocities, state),
         pair=_factors(implicit_record.ComplexFactors, np.complex128, plan.factor, velocities, state),
         coupled=_coupled(plan, place, state),
@@ -130,11 +123,8 @@ def _coupled(plan: TangentPlan, place: Index, state: int) -> implicit_record.Cou
         column=factor.column,
         row_start=factor.row_start,
         factors=real_factors(factor, 0, 0),
-        M=np.zeros((kept, entries)),
-        D=np.zeros((kept, entries)),
-        K=np.zeros((kept, entries)),
-        state=np.zeros((stages, state)),
-        r=np.zeros((stages, state)),
+        **zeros("M D K", kept, entries),
+        **zeros("state r", stages, state),
         moved=np.zeros((stages, velocities)),
         reach=np.zeros((velocities, 3, 9)),
         spin=np.zeros((turns, 12, 12)),
@@ -200,21 +190,14 @@ def newton_tables(
         row_start=factor.row_start,
         lu=factor.tables,
         base=np.zeros(state),
-        turn=np.zeros(n),
-        speed=np.zeros(n),
-        state=np.zeros(states),
-        correction=np.zeros(n),
-        rate=np.zeros(states),
-        change=np.zeros(n),
+        **zeros("turn speed correction change moved_before", n),
+        **zeros("state rate", states),
         **solved,
         last=np.zeros(max(size, 4)),
         before=np.zeros(size),
-        moved_before=np.zeros(n),
-        lam=np.zeros(rows),
-        lam_before=np.zeros(rows),
+        **zeros("lam lam_before", rows),
         corners=np.array(corners, dtype=float),
-        kept=np.zeros(4),
-        settings=np.zeros(4),
+        **zeros("kept settings", 4),
         balance=real_factors((plan if balance else EMPTY).factor, 0, 0),
         filter=real_factors((plan if filtered else EMPTY).factor, 0, 0),
         balanced=np.array([0.0, length]),

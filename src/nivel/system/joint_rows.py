@@ -25,7 +25,7 @@ from nivel.lazy import dataclass, field
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
 from nivel.system.builder import SystemBuilder
 from nivel.system.joint_frames import cosine_as_placed, joint_frames, slot_frame
-from nivel.system.tables import Rail, Wheel, index_array
+from nivel.system.tables import Rail, Wheel, index_array, zeros
 
 if TYPE_CHECKING:
     from nivel.elements.joints.couplings import Curve
@@ -134,11 +134,9 @@ class RowTable:
             offset=np.array([given or 0.0 for given in self.given], dtype=float),
             motion=np.zeros(len(self.given)),
             scale=np.array(scale, dtype=float),
-            C=np.zeros(rows),
-            Cdot=np.zeros(rows),
+            **zeros("C Cdot lam", rows),
             gamma=np.zeros(rows + extra_rows),
             J=J,
-            lam=np.zeros(rows),
         )
 
 

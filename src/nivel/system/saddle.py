@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any, Final
 
@@ -14,8 +15,9 @@ from nivel.system.builder import SystemBuilder
 from nivel.system.elimination.elimination import plan
 from nivel.system.joint_rows import RowTable
 from nivel.system.system import Equations
-from nivel.system.tables import index_array, padded
+from nivel.system.tables import index_array, padded, zeros
 
+Index = NDArray[np.uint32]
 # entries of the rows of frictions
 COLUMNS: Final = WAY + 1
 NUMBERS: Final = LEVER + 1
@@ -47,28 +49,38 @@ def saddle_tables(
     count = len(blocks)
     blocks += [(row, part, marker, body_of[marker]) for row, part, marker in extra if body_of[marker] != bodies]
     block = index_array(blocks, 4)
-    elimination = plan(_groups(rows, row_count), block[:count, 0].tolist(), block[:count, 3].tolist())
-    width = equations.velocities
+    row = np.arange(row_count, dtype=np.uint32)
+    return solver_tables(row, block, count, _groups(rows, row_count), equations.velocities, bodies, bodies)
+
+
+def solver_tables(
+    row: Index,
+    block: Index,
+    count: int,
+    groups: Sequence[Sequence[int]],
+    width: int,
+    factors: int,
+    unknowns: int,
+) -> Saddle:
+    """Pattern and work arrays for these rows of the constraints, and blocks of which the first `count` are theirs.
+
+    groups : rows that are eliminated together. width : columns of a block. factors : bodies with a factor of their own. unknowns : rows
+    of z.
+    """
+    elimination = plan(groups, block[:count, 0].tolist(), block[:count, 3].tolist())
     return Saddle(
-        row=np.arange(row_count, dtype=np.uint32),
+        row=row,
         block=block,
         blocks=np.array([count], dtype=np.uint32),
         **vars(elimination),
-        shift=np.zeros(row_count),
-        least=np.zeros(row_count),
+        **zeros("shift least Dinv y b target before", len(row)),
         W=np.zeros((len(block), width)),
-        G=np.zeros((bodies, width, width)),
-        z=np.zeros((bodies, width)),
+        G=np.zeros((factors, width, width)),
+        z=np.zeros((unknowns, width)),
         S=np.zeros(len(elimination.S_row)),
         L=np.zeros(len(elimination.L_row)),
-        Dinv=np.zeros(row_count),
-        y=np.zeros(row_count),
-        b=np.zeros(row_count),
-        dense=np.zeros((0, 0)),
-        null=np.zeros((0, 0)),
+        **zeros("dense null", 0, 0),
         pivot=np.zeros(0, dtype=np.uint32),
-        target=np.zeros(row_count),
-        before=np.zeros(row_count),
     )
 
 
@@ -92,15 +104,12 @@ def friction_tables(
         number=padded([_filled(numbers, NUMBERS, 0.0) for _, numbers in builder.frictions], 0.0),
         part=index_array([min(part for row, part, _ in extra if row == row_count + k) for k in range(count)], 1),
         block=index_array(list(pairwise(first)), 2),
-        force=np.zeros(count),
+        **zeros("force free anchor", count),
         mass=np.ones(count),
-        S=np.zeros((count, count)),
+        **zeros("S jacobian", count, count),
         response=np.zeros((count, row_count)),
         change=np.zeros((count, *saddle.z.shape)),
-        free=np.zeros(count),
         lam=np.zeros(row_count),
-        anchor=np.zeros(count),
-        jacobian=np.zeros((count, count)),
         work=np.zeros((11, count)),
     )
 

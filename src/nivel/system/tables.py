@@ -28,6 +28,11 @@ def index_array(values: object, columns: int) -> NDArray[np.uint32]:
     return array.reshape(-1) if columns == 1 else array.reshape(-1, columns)
 
 
+def zeros(names: str, *shape: int) -> dict[str, Any]:
+    """Arrays of one shape for work, by the names of their fields."""
+    return {name: np.zeros(shape) for name in names.split()}
+
+
 def empty(record_class: type[AnyRecord]) -> AnyRecord:
     """A record without numbers: all its arrays are empty."""
     kinds = (get_args(kind) for kind in get_type_hints(record_class, include_extras=True).values())
@@ -88,11 +93,8 @@ class MarkerTable:
             body=index_array(self.body, 1),
             position_b=np.array(self.position, dtype=float).reshape(count, 3),
             frame_b=np.array(self.frame, dtype=float).reshape(count, 3, 3),
-            u=np.zeros((count, 3)),
-            r=np.zeros((count, 3)),
+            **zeros("u r rdot bias", count, 3),
             A=np.zeros((count, 3, 3)),
-            rdot=np.zeros((count, 3)),
-            bias=np.zeros((count, 3)),
         )
 
 
@@ -191,9 +193,7 @@ class CoordinateTable:
             station=np.array([place for each in stations for place in each], dtype=float),
             followed=index_array(followed, 1),
             reference=np.array([self.rails[k].place if k in self.rails else 0.0 for k in range(count)], dtype=float),
-            value=np.zeros(count),
-            rate=np.zeros(count),
-            bias=np.zeros(count),
+            **zeros("value rate bias", count),
             J=np.zeros((parts + 2, 6)),
         )
 
@@ -273,12 +273,8 @@ class ElementTable:
             span=index_array(list(pairwise(stops)), 2),
             columns=index.astype(np.uint32),
             number=padded([element[1] for element in elements], 0.0),
-            memory=np.zeros(kept),
-            proposal=np.zeros(kept),
-            depth=np.zeros(kept),
-            depth_rate=np.zeros(kept),
-            state=np.zeros(len(self.states)),
-            state_rate=np.zeros(len(self.states)),
+            **zeros("memory proposal depth depth_rate", *kept),
+            **zeros("state state_rate", len(self.states)),
         )
 
 

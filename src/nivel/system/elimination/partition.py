@@ -9,7 +9,7 @@ import numpy as np
 from nivel.errors import Fault, ModelError
 from nivel.kernels.record.record import Partition
 from nivel.kernels.solve.partition import GROWTH, GROWTH_OF_FORMULAS
-from nivel.system.tables import Array
+from nivel.system.tables import Array, zeros
 from nivel.words.wording import unknown_word
 
 NO_MODES = np.zeros(0)
@@ -89,19 +89,13 @@ def partition(
         quality=np.array([0.0, 0.0, GROWTH]),
         column_place=np.zeros(n, dtype=np.uint32),
         row_place=np.zeros(rows, dtype=np.uint32),
-        scale=np.zeros(rows),
-        weight=np.zeros(rows),
+        **zeros("scale weight b", rows),
         E=np.zeros((rows, n)),
         null=np.zeros((rows - rank, rows)),
-        B=np.zeros((free, n)),
-        MB=np.zeros((free, n)),
+        **zeros("B MB", free, n),
         H=np.zeros((free, free)),
         u=np.zeros(free),
-        D=np.zeros(n),
-        Q=np.zeros(n),
-        v=np.zeros(n),
-        p=np.zeros(n),
-        b=np.zeros(rows),
+        **zeros("D Q v p", n),
     )
 
 

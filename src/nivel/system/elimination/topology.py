@@ -19,6 +19,7 @@ import numpy as np
 from nivel.elements.joints import JOINTS
 from nivel.kernels.record.record import NONE, Constraints, Tree
 from nivel.lazy import dataclass
+from nivel.system.tables import zeros
 
 FREE: Final = -1
 
@@ -196,29 +197,21 @@ def empty_tree(
         turn=np.zeros((0, 2)),
         slider=empty.reshape(0, 2),
         slider_of=empty,
-        theta=np.zeros((nodes, 4)),
+        **zeros("theta own_theta", nodes, 4),
         own=np.zeros((nodes, 3)),
-        own_theta=np.zeros((nodes, 4)),
         size=np.ones(1),
         positions=np.array([positions], dtype=np.uint32),
         axes=np.zeros((3, 3)),
-        arm=np.zeros((bodies, 3)),
-        alpha0=np.zeros((bodies, 3)),
-        Rddot0=np.zeros((bodies, 3)),
-        column=np.zeros((columns, 6)),
+        **zeros("arm alpha0 Rddot0", bodies, 3),
+        **zeros("column U", columns, 6),
         element=np.full((sliders, 2), NONE, dtype=np.uint32),
         frame=np.zeros((sliders, 28)),
         jump=np.zeros((sliders, 6)),
         before=np.zeros((sliders, 12)),
         inertia=np.zeros((bodies, 27)),
-        U=np.zeros((columns, 6)),
-        Dinv=np.zeros(columns),
-        root=np.zeros(columns),
-        wrench=np.zeros((bodies, 6)),
+        **zeros("Dinv root change", columns),
+        **zeros("wrench delta", bodies, 6),
         load=np.zeros((bundle, bodies, 6)),
-        delta=np.zeros((bodies, 6)),
-        state=np.zeros(positions),
-        change=np.zeros(columns),
-        moved=np.zeros(positions),
+        **zeros("state moved", positions),
         small=np.zeros((6, 7)),
     )

@@ -21,8 +21,8 @@ from nivel.machine.bodies.inertia import mass_of
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.uses.coordinate_reference import resolve
-from nivel.system.elimination.elimination import plan
 from nivel.system.elimination.topology import FREE, Edge, SpanningTree, empty_tree, spanning_tree
+from nivel.system.saddle import solver_tables
 from nivel.system.states.joint_start import Bent, Node, Poses, carried_frames, joint_start, poses
 from nivel.system.states.joint_start import Frames as OwnFrames
 from nivel.system.states.tree_nodes import (
@@ -276,33 +276,11 @@ def _blocks(
 
 
 def _saddle(rows: Index, blocks: list[tuple[int, ...]], owners: list[str], columns: int) -> Saddle:
-    own = [block for block in blocks if block[0] < len(rows)]
+    own = sum(block[0] < len(rows) for block in blocks)
     groups: dict[str, list[int]] = {}
     for k, owner in enumerate(owners):
         groups.setdefault(owner, []).append(k)
-    elimination = plan(list(groups.values()), [block[0] for block in own], [block[3] for block in own])
-    count = len(rows)
-    return Saddle(
-        row=rows,
-        block=index_array(blocks, 4),
-        blocks=np.array([len(own)], dtype=np.uint32),
-        **vars(elimination),
-        shift=np.zeros(count),
-        least=np.zeros(count),
-        W=np.zeros((len(blocks), 1)),
-        G=np.zeros((0, 0, 0)),
-        z=np.zeros((columns, 1)),
-        S=np.zeros(len(elimination.S_row)),
-        L=np.zeros(len(elimination.L_row)),
-        Dinv=np.zeros(count),
-        y=np.zeros(count),
-        b=np.zeros(count),
-        dense=np.zeros((0, 0)),
-        null=np.zeros((0, 0)),
-        pivot=np.zeros(0, dtype=np.uint32),
-        target=np.zeros(count),
-        before=np.zeros(count),
-    )
+    return solver_tables(rows, index_array(blocks, 4), own, list(groups.values()), 1, 0, columns)
 
 
 def _friction(old: Record, blocks: list[tuple[int, ...]], rows: int, columns: int) -> FrictionTables:

@@ -35,17 +35,7 @@ from nivel.kernels.bodies.rigid import load_weight
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import apply_forces, call_hook, family
 from nivel.kernels.record.record import MODES, record_at
-from nivel.kernels.residual.flexible_over_step import (
-    balance_modes,
-    begin_flexible_interval,
-    central_momentum,
-    load_mean_modes,
-    mean_frame,
-    mean_inertia_force,
-    modal_elastic_energy,
-    note_central_inertia,
-    push_modes,
-)
+from nivel.kernels.residual import flexible_over_step
 from nivel.kernels.residual.residual import load_multipliers
 from nivel.kernels.residual.shared_over_step import begin_shared_interval, change_shared_momenta
 from nivel.kernels.solve.flexible_partition import moves_with_modes
@@ -76,7 +66,7 @@ def begin_interval(machine, h, length):
             start[6 + i] = dot(A[i], momentum)
         total += bodies.mass[b]
     begin_shared_interval(machine)
-    begin_flexible_interval(machine)
+    flexible_over_step.begin_flexible_interval(machine)
     interval.numbers[STEP], interval.numbers[STORED] = h, record.control.stored[0]
     # motions of less than this share of the machine in a step do no work that could be missed
     interval.numbers[LEAST] = total * (1e-7 * length / h) ** 2
@@ -175,7 +165,7 @@ def push(machine, stored):
         twice_kinetic += dot(u, p) + dot(w, n)
     for f in range(own.body.shape[0]):
         _, w, p, _ = internal_motion(bodies, interval, own.body[f], locked)
-        twice_kinetic += push_modes(machine, f, w, 0.0, p, numbers[STEP])
+        twice_kinetic += flexible_over_step.push_modes(machine, f, w, 0.0, p, numbers[STEP])
     if not twice_kinetic > numbers[LEAST]:
         return
     factor = missing_power(machine, stored) / twice_kinetic
@@ -188,7 +178,7 @@ def push(machine, stored):
             F[3 + i] += factor * (n[i] + moment[i])
     for f in range(own.body.shape[0]):
         _, w, p, _ = internal_motion(bodies, interval, own.body[f], locked)
-        push_modes(machine, f, w, factor, p, numbers[STEP])
+        flexible_over_step.push_modes(machine, f, w, factor, p, numbers[STEP])
 
 
 @stage
@@ -269,7 +259,7 @@ def residual(machine, job, t):
         status = apply_forces(machine, t, own.y)
     if status != OK:
         return status
-    stored = real(record.control.stored[0]) + modal_elastic_energy(record.flexible)
+    stored = real(record.control.stored[0]) + flexible_over_step.modal_elastic_energy(record.flexible)
     close_end(machine)
     for b in range(record.bodies.mass.shape[0]):
         if not moves_with_modes(record, b):
@@ -303,7 +293,7 @@ def change_flexible_momentum(machine, f, h):
     for j in range(n):
         flexible.pdot[first + j] = 2.0 * (y[p + j] - base[p + j]) / h - base[rate + j]
         y[rate + j] = flexible.pdot[first + j]
-    V, momentum = central_momentum(bodies, flexible, f, w1)
+    V, momentum = flexible_over_step.central_momentum(bodies, flexible, f, w1)
     missed = real(dot(w0, momentum) - dot((start[9], start[10], start[11]), w1))
     for j in range(n):
         missed += real(base[rate + j] * flexible.pddot[first + j] - interval.modal[first + j] * y[rate + j])
@@ -324,9 +314,9 @@ def change_flexible_momentum(machine, f, h):
     bend_body(bodies, flexible, f)
     for i in range(3):
         bodies.c[b, i] = arm[i]
-    power = mean_inertia_force(m, flexible, f, w0, w1, base, y, rate, rows[first : first + n])
+    power = flexible_over_step.mean_inertia_force(m, flexible, f, w0, w1, base, y, rate, rows[first : first + n])
     interval.defect[f] = power - 0.5 * missed / h
-    note_central_inertia(machine, f, h)
+    flexible_over_step.note_central_inertia(machine, f, h)
 
 
 @family
@@ -338,12 +328,12 @@ def pass_flexible(machine, job, t):
         for f in range(flexible.body.shape[0]):
             change_flexible_momentum(machine, f, h)
         for k in range(flexible.frame.shape[0]):
-            mean_frame(machine, k, h)
+            flexible_over_step.mean_frame(machine, k, h)
     elif job == LOAD:
-        load_mean_modes(machine)
+        flexible_over_step.load_mean_modes(machine)
         gather_frames(machine)
     elif job == BALANCE:
-        balance_modes(machine, h, own.value[6 * record.bodies.mass.shape[0] :])
+        flexible_over_step.balance_modes(machine, h, own.value[6 * record.bodies.mass.shape[0] :])
     else:
         return do_flexible(machine, job)
     return OK

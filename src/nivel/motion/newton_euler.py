@@ -10,18 +10,8 @@ diag(m, J̄_c): the same equations, and its factor costs nothing.
 from nivel.kernels.algebra.rotation import normalise_parameters, rates_of_parameters
 from nivel.kernels.algebra.spatial import cross, dot, multiply
 from nivel.kernels.algebra.vectors import minus, moment, put, seen, times, turned
+from nivel.kernels.bodies import floating_dynamics
 from nivel.kernels.bodies.constraint import constraint_rows
-from nivel.kernels.bodies.floating_dynamics import (
-    BEND,
-    FACTORISE,
-    FRAMES,
-    GATHER,
-    MOVE_FRAMES,
-    NEEDED,
-    OWN_BIAS,
-    UNWHITEN,
-    WHITEN,
-)
 from nivel.kernels.bodies.marker import move_markers, place_markers
 from nivel.kernels.bodies.rigid import load_weight, place_body
 from nivel.kernels.core.status import OK
@@ -71,9 +61,9 @@ def read_state(machine, t, y):
     nb, modes = bodies.mass.shape[0], own.p.shape[0]
     for j in range(modes):
         own.p[j], own.pdot[j] = y[7 * nb + j], y[first + 6 * nb + j]
-    call_hook(machine, MODES, BEND, t)
+    call_hook(machine, MODES, floating_dynamics.BEND, t)
     status = read_markers(machine, t)
-    call_hook(machine, MODES, OWN_BIAS, t)
+    call_hook(machine, MODES, floating_dynamics.OWN_BIAS, t)
     return status
 
 
@@ -145,7 +135,7 @@ def unwhiten_all(machine):
     record = record_at(machine)
     for b in range(record.bodies.mass.shape[0]):
         unwhiten(record.bodies, record.saddle, b)
-    call_hook(machine, FACTORS, UNWHITEN, 0.0)
+    call_hook(machine, FACTORS, floating_dynamics.UNWHITEN, 0.0)
 
 
 @stage
@@ -193,7 +183,7 @@ def change_body(record, y, b, first, at_positions):
 def factorise(machine, y):
     """W of all rows, and the factor of S; y is not needed for them here. Returns a status."""
     whiten_rows(machine)
-    status = call_hook(machine, FACTORS, FACTORISE, 0.0)
+    status = call_hook(machine, FACTORS, floating_dynamics.FACTORISE, 0.0)
     return factorise_rows(machine, WIDTH) if status == OK else status
 
 
@@ -202,14 +192,14 @@ def load_bodies(machine, t, y):
     """All applied forces on bodies and modes. Returns a status."""
     load_weight(record_at(machine).bodies)
     status = apply_forces(machine, t, y)
-    return call_hook(machine, MODES, GATHER, t) if status == OK else status
+    return call_hook(machine, MODES, floating_dynamics.GATHER, t) if status == OK else status
 
 
 @stage
 def whiten_all_forces(machine, y):
     """z of all bodies and modes; y is not needed for it here."""
     whiten_forces(machine)
-    call_hook(machine, FACTORS, WHITEN, 0.0)
+    call_hook(machine, FACTORS, floating_dynamics.WHITEN, 0.0)
 
 
 @shared
@@ -218,7 +208,7 @@ def accelerate(machine, t, y, ydot):
     status = find_accelerations(machine, t, y, ydot, WIDTH, load_bodies, factorise, whiten_all_forces)
     if status == OK:
         unwhiten_all(machine)
-        call_hook(machine, FACTORS, FRAMES, t)
+        call_hook(machine, FACTORS, floating_dynamics.FRAMES, t)
     return status
 
 
@@ -281,7 +271,7 @@ def accelerate_bodies(machine):
         put(x, 3, v)
     for j in range(flexible.p.shape[0]):
         flexible.pddot[j] = own.vdot[6 * count + j]
-    call_hook(machine, MODES, MOVE_FRAMES, 0.0)
+    call_hook(machine, MODES, floating_dynamics.MOVE_FRAMES, 0.0)
 
 
 @stage
@@ -289,7 +279,7 @@ def write_bodies(machine):
     """The rows of all bodies and modes from `residual.wrench`, rates of the states of forces, and constraints."""
     record = record_at(machine)
     bodies, own, count = record.bodies, record.residual, record.bodies.mass.shape[0]
-    call_hook(machine, MODES, NEEDED, 0.0)
+    call_hook(machine, MODES, floating_dynamics.NEEDED, 0.0)
     for b in range(count):
         A, F = bodies.A[b], own.wrench[b]
         put(own.value, 6 * b, (F[3], F[4], F[5]))

@@ -15,18 +15,7 @@ from nivel.machine.core.placement import no_direction
 from nivel.machine.core.record import GROUND, Checked, Name, Place, Problem, superfluous
 from nivel.machine.core.vectors import Array
 from nivel.machine.given import Field, Given, ManyPlaces, Maybe, OneNumber, OneRecord, TwoNumbers
-from nivel.machine.units.quantity import (
-    Angle,
-    AngularVelocityVector,
-    Direction,
-    Length,
-    Position,
-    Quantity,
-    Scalar,
-    VelocityVector,
-    Whole,
-    listed,
-)
+from nivel.machine.units import quantity
 
 START, END = "start", "end"
 LEAST: Final = 1e-4  # share of the length by which stations and ends are apart, at least
@@ -36,9 +25,9 @@ REPRESENTED: Final = 1e-6  # share by which sections may miss what a model can r
 OTHERS: Final = "or take `model: ancf-beam` or `geometrically-exact`"
 FARTHEST: Final = 1e9  # m; farther points are slips, and their squares may overflow
 
-Points = Annotated[ManyPlaces[Position], BeforeValidator(listed)]
-Offset = Annotated[TwoNumbers[Length], BeforeValidator(listed)]
-Time = Annotated[OneNumber, Quantity("time")]
+Points = Annotated[ManyPlaces[quantity.Position], BeforeValidator(quantity.listed)]
+Offset = Annotated[TwoNumbers[quantity.Length], BeforeValidator(quantity.listed)]
+Time = Annotated[OneNumber, quantity.Quantity("time")]
 
 
 class Beam(Checked):
@@ -54,18 +43,18 @@ class Beam(Checked):
     always = frozenset({"order"})  # without it `elements` would mean linear ones
 
     name: Name
-    from_: Position = Field("where it starts, global", key="from")
-    to: Position = Field("where it ends, global")
-    via: Maybe[Position] = Field("a point on the way: the beam is an arc of a circle", default=None)
+    from_: quantity.Position = Field("where it starts, global", key="from")
+    to: quantity.Position = Field("where it ends, global")
+    via: Maybe[quantity.Position] = Field("a point on the way: the beam is an arc of a circle", default=None)
     through: Points = Field("points on the way: the beam is a smooth curve through them", default=())
-    up: Maybe[Direction] = Field("the z axes of its sections are as near to this as they can be", default=None)
-    twist: Angle = Field("turn of the last section about the beam, against the first, unstressed", default=0.0)
+    up: Maybe[quantity.Direction] = Field("the z axes of its sections are as near to this as they can be", default=None)
+    twist: quantity.Angle = Field("turn of the last section about the beam, against the first, unstressed", default=0.0)
     section: OneRecord[sections.BeamSectionRecord]
     material: Maybe[OneRecord[sections.Material]] = Field(default=None)
     centroid: Offset = Field("y and z of the sections' centroids from the line of the beam", default=(0.0, 0.0))
     shear_centre: Offset = Field("y and z of the shear centres from the line of the beam", default=(0.0, 0.0))
-    elements: Annotated[Whole, Field(strict=True, ge=1, le=100_000)] = 10
-    order: Annotated[Whole, Field(strict=True, ge=1, le=3)] = Field(
+    elements: Annotated[quantity.Whole, Field(strict=True, ge=1, le=100_000)] = 10
+    order: Annotated[quantity.Whole, Field(strict=True, ge=1, le=3)] = Field(
         "of an element: 1, 2 or 3; 1 where `elements` is given without it, and of another model", default=2
     )
     model: Literal["geometrically-exact", "segments", "ancf-cable", "ancf-beam"] = Field(
@@ -80,11 +69,11 @@ class Beam(Checked):
         "of rotations in an element: relative to a node of it, or total, which is not objective", default="relative"
     )
     damping: Time = Field("stress from a rate of strain, over that from the strain", default=0.0)
-    stations: Given[dict[Name, Scalar], dict[str, float], Mapping[str, float | str]] = Field(
+    stations: Given[dict[Name, quantity.Scalar], dict[str, float], Mapping[str, float | str]] = Field(
         "name: share of the length, between 0 and 1", default={}
     )
-    velocity: VelocityVector = Field("of its start, global axes", default=(0.0, 0.0, 0.0))
-    angular_velocity: AngularVelocityVector = Field("as a rigid body, global axes", default=(0.0, 0.0, 0.0))
+    velocity: quantity.VelocityVector = Field("of its start, global axes", default=(0.0, 0.0, 0.0))
+    angular_velocity: quantity.AngularVelocityVector = Field("as a rigid body, global axes", default=(0.0, 0.0, 0.0))
 
     @model_validator(mode="before")
     @classmethod

@@ -21,16 +21,7 @@ from pydantic_core import CoreSchema
 
 from nivel.elements.circuits import ranges
 from nivel.lazy import dataclass, fields, replace
-from nivel.machine.core.coefficient import (
-    Exponent,
-    HeatCapacity,
-    NotNegative,
-    NotNegativeNumber,
-    Pressure,
-    ThermalExpansion,
-    Truth,
-    Viscosity,
-)
+from nivel.machine.core import coefficient
 from nivel.machine.core.record import Checked, Name, Problem, entry, superfluous
 from nivel.machine.given import Field, Maybe, OneNumber
 from nivel.machine.units.quantity import Density, Quantity
@@ -133,33 +124,35 @@ class Fluid(Checked):
     density: Maybe[Density] = Field(
         "of the liquid at atmospheric pressure; default 870 kg/m³", default=None, usual=ranges.LIQUID_DENSITY
     )
-    bulk_modulus: Maybe[Pressure] = Field(
+    bulk_modulus: Maybe[coefficient.Pressure] = Field(
         "of the liquid at atmospheric pressure; default 1.5 GPa", default=None, usual=ranges.BULK_MODULUS
     )
-    bulk_modulus_slope: Maybe[NotNegativeNumber] = Field("what it grows by with the pressure; default 10", default=None)
-    air: Annotated[OneNumber, Quantity("number"), NotNegative] = Field(
+    bulk_modulus_slope: Maybe[coefficient.NotNegativeNumber] = Field(
+        "what it grows by with the pressure; default 10", default=None
+    )
+    air: Annotated[OneNumber, Quantity("number"), coefficient.NotNegative] = Field(
         "undissolved air: its share of the volume at atmospheric pressure", default=0.005
     )
-    gas_exponent: Exponent = Field("polytropic exponent of the air: 1.4 fast, 1 slow", default=1.4)
-    dissolved_air: Annotated[OneNumber, Quantity("number"), NotNegative] = Field(
+    gas_exponent: coefficient.Exponent = Field("polytropic exponent of the air: 1.4 fast, 1 slow", default=1.4)
+    dissolved_air: Annotated[OneNumber, Quantity("number"), coefficient.NotNegative] = Field(
         "volume at atmospheric pressure of the air that comes out below `saturation_pressure`", default=0.0
     )
     saturation_pressure: ranges.Level = Field("absolute, from which on that air is dissolved", default=101325.0)
-    vapour_pressure: Maybe[Pressure] = Field(
+    vapour_pressure: Maybe[coefficient.Pressure] = Field(
         "absolute, at which the liquid boils; default: only the air cavitates", default=None, usual=ranges.VAPOUR
     )
-    viscosity: Maybe[Viscosity] = Field("kinematic; default 46 mm²/s", default=None, usual=ranges.VISCOSITY)
-    pressure_viscosity: Maybe[NotNegativeNumber] = Field(
+    viscosity: Maybe[coefficient.Viscosity] = Field("kinematic; default 46 mm²/s", default=None, usual=ranges.VISCOSITY)
+    pressure_viscosity: Maybe[coefficient.NotNegativeNumber] = Field(
         "of lines: Barus's α in 1/Pa, with which the viscosity grows as exp(α p); default 0", default=None
     )
 
-    isothermal: Truth = Field(
+    isothermal: coefficient.Truth = Field(
         "whether it keeps its `temperature`; false: that of every volume is a state, of a `grade`", default=True
     )
-    heat_capacity: Maybe[HeatCapacity] = Field(
+    heat_capacity: Maybe[coefficient.HeatCapacity] = Field(
         "of a liquid that is not isothermal; default: that of its grade", default=None, usual=ranges.HEAT_CAPACITY
     )
-    expansion: Maybe[ThermalExpansion] = Field(
+    expansion: Maybe[coefficient.ThermalExpansion] = Field(
         "thermal one, of a liquid that is not isothermal; default: that of its grade",
         default=None,
         usual=ranges.EXPANSION,
@@ -230,7 +223,7 @@ class Gas(Checked):
         "c_p over c_v, of gas whose temperature is a state", default=1.4
     )
     temperature: ranges.Warmth = Field("of tanks, of walls, and of all gas at the start", default=293.15)
-    isothermal: Truth = Field("whether the gas keeps that temperature", default=False)
+    isothermal: coefficient.Truth = Field("whether the gas keeps that temperature", default=False)
 
     @property
     def gas_constant(self) -> float:

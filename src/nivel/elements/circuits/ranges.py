@@ -5,16 +5,7 @@ from __future__ import annotations
 
 from typing import Annotated, Final
 
-from nivel.machine.core.coefficient import (
-    Frequency,
-    HeatTransfer,
-    NotNegativeDuration,
-    NotNegativePressure,
-    Pressure,
-    Temperature,
-    Volume,
-    VolumeFlow,
-)
+from nivel.machine.core import coefficient
 from nivel.machine.given import Usual
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.units.quantity import PositiveLength
@@ -52,17 +43,17 @@ CURRENT: Final = Usual(0.0, 20.0, "A", "0.6 A")
 LAG: Final = Usual(1e-5, 1.0, "s", "10 ms")
 SPOOL_FREQUENCY: Final = Usual(0.2, 1000.0, "Hz", "8 Hz")
 
-Level = Annotated[Pressure, PRESSURE]
+Level = Annotated[coefficient.Pressure, PRESSURE]
 VaryingLevel = Annotated[OneFunction, varying("pressure"), PRESSURE]
-Drop = Annotated[Pressure, DIFFERENCE]
-LeastDrop = Annotated[NotNegativePressure, DIFFERENCE]
-Flow = Annotated[VolumeFlow, FLOW]
-Size = Annotated[Volume, VOLUME]
-Lag = Annotated[NotNegativeDuration, LAG]
+Drop = Annotated[coefficient.Pressure, DIFFERENCE]
+LeastDrop = Annotated[coefficient.NotNegativePressure, DIFFERENCE]
+Flow = Annotated[coefficient.VolumeFlow, FLOW]
+Size = Annotated[coefficient.Volume, VOLUME]
+Lag = Annotated[coefficient.NotNegativeDuration, LAG]
 Bore = Annotated[PositiveLength, BORE]
 Stroke = Annotated[PositiveLength, STROKE]
 PipeLength = Annotated[PositiveLength, PIPE_LENGTH]
-WallModulus = Annotated[Pressure, WALL_MODULUS]
-WallTransfer = Annotated[HeatTransfer, HEAT_TRANSFER]
-Warmth = Annotated[Temperature, TEMPERATURE]
-SpoolFrequency = Annotated[Frequency, SPOOL_FREQUENCY]
+WallModulus = Annotated[coefficient.Pressure, WALL_MODULUS]
+WallTransfer = Annotated[coefficient.HeatTransfer, HEAT_TRANSFER]
+Warmth = Annotated[coefficient.Temperature, TEMPERATURE]
+SpoolFrequency = Annotated[coefficient.Frequency, SPOOL_FREQUENCY]

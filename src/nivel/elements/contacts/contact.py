@@ -9,18 +9,7 @@ from pydantic import BeforeValidator
 
 from nivel.elements.contacts.height_field import HeightField
 from nivel.elements.facts import Output, of_force
-from nivel.machine.core.coefficient import (
-    DampingPerLoad,
-    Exponent,
-    FoundationModulus,
-    NotNegativeLength,
-    NotNegativeNumber,
-    PoissonRatio,
-    PositiveNumber,
-    PositiveSpeed,
-    Pressure,
-    Restitution,
-)
+from nivel.machine.core import coefficient
 from nivel.machine.core.element import Acts, ForceElement, Holds, Inequalities
 from nivel.machine.core.marker import ManyMarkers, MarkerPlace
 from nivel.machine.core.record import GROUND, BodyName, Problem, Record, superfluous
@@ -52,8 +41,8 @@ class Material(Record):
 
     _spellings: ClassVar[Mapping[str, str]] = {"young_modulus": "youngs_modulus"}
 
-    youngs_modulus: Pressure
-    poisson_ratio: PoissonRatio
+    youngs_modulus: coefficient.Pressure
+    poisson_ratio: coefficient.PoissonRatio
 
 
 class Contact(ForceElement):
@@ -116,33 +105,33 @@ class Contact(ForceElement):
     parts: Maybe[TwoNumbers[Whole]] = Field(
         "numbers of the convex parts of both `bodies`, from 1; filled where a mesh has `convex_parts`", default=None
     )
-    exponent: Exponent = Field("of the depth", default=HERTZ)
+    exponent: coefficient.Exponent = Field("of the depth", default=HERTZ)
     stiffness: Maybe[PowerStiffness] = Field("force by depth ** exponent", default=None)
     materials: Maybe[TwoRecords[Material]] = Field(
         "of the first body and the second or the plane; for spheres, in place of `stiffness`", default=None
     )
-    foundation_modulus: Maybe[FoundationModulus] = Field(
+    foundation_modulus: Maybe[coefficient.FoundationModulus] = Field(
         "pressure by depth where two bodies of the shapes box, cylinder, extrusion and mesh touch, in place of `stiffness`",
         default=None,
     )
-    damping: Maybe[DampingPerLoad] = Field(
+    damping: Maybe[coefficient.DampingPerLoad] = Field(
         "the force, or the pressure of a `foundation_modulus`, is times 1 + damping · speed of approach; 0 loses no energy",
         default=None,
     )
-    restitution: Maybe[Restitution] = Field(
+    restitution: Maybe[coefficient.Restitution] = Field(
         "speed after the impact by the speed before it; 1 loses no energy", default=None
     )
     law: Maybe[ContactForce] = Field(
         "the normal force at a point that touches, in place of `stiffness` and `restitution`; may use `depth` and `rate`",
         default=None,
     )
-    friction: NotNegativeNumber = Field("coefficient of kinetic friction", default=0.0)
-    static_friction: Maybe[PositiveNumber] = Field("coefficient, default `friction`", default=None)
+    friction: coefficient.NotNegativeNumber = Field("coefficient of kinetic friction", default=0.0)
+    static_friction: Maybe[coefficient.PositiveNumber] = Field("coefficient, default `friction`", default=None)
     friction_model: Maybe[FrictionModel] = Field(FRICTION_MODELS, default=None)
-    friction_transition_speed: Maybe[PositiveSpeed] = Field(
+    friction_transition_speed: Maybe[coefficient.PositiveSpeed] = Field(
         "of `friction_model: coulomb`; stiction makes no use of it in motion", default=None
     )
-    rolling_resistance: NotNegativeLength = Field(
+    rolling_resistance: coefficient.NotNegativeLength = Field(
         "lever arm b of a moment up to b · normal force that brakes rolling", default=0.0
     )
     patch_radius: Maybe[PositiveLength] = Field(
@@ -299,15 +288,17 @@ class Contacts(ForceElement):
     planes: Annotated[ManyMarkers, BeforeValidator(listed)] = Field(
         "markers: all bodies touch them too, on the side of the z axis", default=()
     )
-    exponent: Exponent = Field("of the depth", default=HERTZ)
+    exponent: coefficient.Exponent = Field("of the depth", default=HERTZ)
     stiffness: PowerStiffness = Field("force by depth ** exponent")
-    restitution: Restitution = Field("speed after the impact by the speed before it; 1 loses no energy")
-    friction: NotNegativeNumber = Field("coefficient of kinetic friction", default=0.0)
-    static_friction: Maybe[PositiveNumber] = Field("of stiction: coefficient, default `friction`", default=None)
+    restitution: coefficient.Restitution = Field("speed after the impact by the speed before it; 1 loses no energy")
+    friction: coefficient.NotNegativeNumber = Field("coefficient of kinetic friction", default=0.0)
+    static_friction: Maybe[coefficient.PositiveNumber] = Field(
+        "of stiction: coefficient, default `friction`", default=None
+    )
     friction_model: Maybe[FrictionModel] = Field(
         f"{FRICTION_MODELS}; stiction is for at most {MOST_PAIRS} pairs, which become single contacts", default=None
     )
-    friction_transition_speed: Maybe[PositiveSpeed] = Field(
+    friction_transition_speed: Maybe[coefficient.PositiveSpeed] = Field(
         "friction goes as tanh(sliding speed / this), so bodies creep", default=None
     )
 

@@ -9,24 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.elements.contacts import law as of_law
 from nivel.elements.contacts.contact import WORK, Contacts
 from nivel.elements.contacts.ground import find_point_of_spheres
-from nivel.elements.contacts.law import (
-    COLUMNS,
-    LOST,
-    NORMAL,
-    NUMBERS,
-    OUTPUT,
-    POINT,
-    POWER,
-    RUBBING,
-    STIFFNESS,
-    SUMS,
-    begin_contact,
-    law_numbers,
-    meets,
-    push,
-)
 from nivel.elements.facts import add_outputs
 from nivel.elements.forces.friction import add_friction_work, rub_off
 from nivel.elements.kind import Kind
@@ -40,13 +25,13 @@ from nivel.machine.bodies.shape import Sphere
 from nivel.native.function import leaf, part, stage
 
 # columns of the pair; then the markers of the spheres and those of the planes
-SPHERES, PLANES, FIRST = COLUMNS, COLUMNS + 1, COLUMNS + 2
+SPHERES, PLANES, FIRST = of_law.COLUMNS, of_law.COLUMNS + 1, of_law.COLUMNS + 2
 # outputs: magnitude, power, depth, normal force, friction, power of friction, pairs that touch
 DEPTH, FORCE, RUB, LOST_POWER, TOUCHING = 2, 3, 4, 5, 6
 # numbers of the pair; CELL: size of a cell, GAP: by how much what is not in cells side by side is apart at least, TABLE_SIZE: 0 where all
 # pairs are looked at, KEPT: how many touched in the last evaluation. Behind the radii the table, of each sphere the one before it in its
 # cell, and its cell (3); places of what touched, so many of each sphere
-CELL, GAP, TABLE_SIZE, KEPT, RADII = (NUMBERS + at for at in range(5))
+CELL, GAP, TABLE_SIZE, KEPT, RADII = (of_law.NUMBERS + at for at in range(5))
 KEPT_OF_EACH = 8
 
 
@@ -54,13 +39,13 @@ KEPT_OF_EACH = 8
 def push_apart(machine, k, place, i, j, depth, t):
     """Push at surface `place` of element k between markers i and j at its point and normal, where it touches."""
     record = record_at(machine)
-    acts, rate = meets(machine, k, place, i, j, depth)
+    acts, rate = of_law.meets(machine, k, place, i, j, depth)
     if not acts:
         return
-    push(machine, k, place, i, j, depth, rate, t)
+    of_law.push(machine, k, place, i, j, depth, rate, t)
     if real(depth) > 0.0:
         numbers = record.elements.number[k]
-        record.outputs.value[np.int64(record.elements.columns[k, OUTPUT]) + TOUCHING] += 1.0
+        record.outputs.value[np.int64(record.elements.columns[k, of_law.OUTPUT]) + TOUCHING] += 1.0
         if real(numbers[TABLE_SIZE]) > 0.0:
             keep_touch(machine, k, place)
 
@@ -83,7 +68,7 @@ def fill_cells(machine, k):
     record = record_at(machine)
     columns, numbers, r = record.elements.columns[k], record.elements.number[k], record.markers.r
     count, size = np.int64(columns[SPHERES]), np.int64(real(numbers[TABLE_SIZE]))
-    table, nothing = RADII + count, 0.0 * numbers[STIFFNESS]
+    table, nothing = RADII + count, 0.0 * numbers[of_law.STIFFNESS]
     before, cells = table + size, table + size + count
     for m in range(size):
         numbers[table + m] = nothing
@@ -103,7 +88,7 @@ def forget_touches(machine, k):
     elements = record.elements
     columns, numbers = elements.columns[k], elements.number[k]
     count, size = np.int64(columns[SPHERES]), np.int64(real(numbers[TABLE_SIZE]))
-    kept, nothing = RADII + size + 5 * count, 0.0 * numbers[STIFFNESS]
+    kept, nothing = RADII + size + 5 * count, 0.0 * numbers[of_law.STIFFNESS]
     touching = np.int64(real(numbers[KEPT]))
     more = touching > KEPT_OF_EACH * count  # than there was room for: all are forgotten
     for m in range(count * np.int64(columns[PLANES]) + count * (count - 1) // 2 if more else touching):
@@ -119,7 +104,7 @@ def keep_touch(machine, k, place):
     columns, numbers = elements.columns[k], elements.number[k]
     count, m = np.int64(columns[SPHERES]), np.int64(real(numbers[KEPT]))
     if m < KEPT_OF_EACH * count:
-        numbers[RADII + np.int64(real(numbers[TABLE_SIZE])) + 5 * count + m] = 0.0 * numbers[STIFFNESS] + place
+        numbers[RADII + np.int64(real(numbers[TABLE_SIZE])) + 5 * count + m] = 0.0 * numbers[of_law.STIFFNESS] + place
     numbers[KEPT] += 1.0
 
 
@@ -130,8 +115,8 @@ def touch_plane(machine, k, place, a, j, height, t):
     numbers, markers = record.elements.number[k], record.markers
     i = np.int64(record.elements.columns[k, FIRST + a])
     normal = axis(markers.A[j], 2)
-    put(numbers, NORMAL, normal)
-    put(numbers, POINT, minus(markers.r[i], times(height, normal)))
+    put(numbers, of_law.NORMAL, normal)
+    put(numbers, of_law.POINT, minus(markers.r[i], times(height, normal)))
     push_apart(machine, k, place, i, j, numbers[RADII + a] - height, t)
 
 
@@ -189,9 +174,9 @@ def apply(machine, k, columns, numbers, t):
     """All pairs of an element."""
     record = record_at(machine)
     elements, markers, followed, out = record.elements, record.markers, record.watched.followed[0], record.outputs.value
-    count, planes, first = np.int64(columns[SPHERES]), np.int64(columns[PLANES]), np.int64(columns[OUTPUT])
-    nothing = 0.0 * numbers[STIFFNESS]
-    begin_contact(machine, k, t)
+    count, planes, first = np.int64(columns[SPHERES]), np.int64(columns[PLANES]), np.int64(columns[of_law.OUTPUT])
+    nothing = 0.0 * numbers[of_law.STIFFNESS]
+    of_law.begin_contact(machine, k, t)
     out[first + TOUCHING] = nothing
     # where surfaces are followed each has its own distance
     uses_cells = real(numbers[TABLE_SIZE]) > 0.0 and followed == 0
@@ -217,10 +202,10 @@ def apply(machine, k, columns, numbers, t):
         else:
             for b in range(a):
                 deepest = look_at_pair(machine, k, a, b, r, deepest, t)
-    force, rub = numbers[SUMS], numbers[RUBBING]
-    out[first], out[first + 1] = np.sqrt(force * force + rub * rub), numbers[POWER]
+    force, rub = numbers[of_law.SUMS], numbers[of_law.RUBBING]
+    out[first], out[first + 1] = np.sqrt(force * force + rub * rub), numbers[of_law.POWER]
     out[first + DEPTH], out[first + FORCE], out[first + RUB] = deepest, force, rub
-    out[first + LOST_POWER] = numbers[LOST]
+    out[first + LOST_POWER] = numbers[of_law.LOST]
 
 
 # From so many spheres on pairs are found by cells, which are so many times as large as the largest sphere.
@@ -245,7 +230,7 @@ def add_contacts(builder: SystemBuilder, force: Contacts) -> None:
         markers.append(builder.place((name, np.array(shape.centre or (0.0, 0.0, 0.0), dtype=float), np.eye(3))))
         radii.append(shape.radius)
     planes = [builder.end(plane) for plane in force.planes]
-    numbers = law_numbers(force, force.stiffness, 0.0)
+    numbers = of_law.law_numbers(force, force.stiffness, 0.0)
     cell, size = LARGER * 2.0 * max(radii), 0
     if len(names) >= MANY:
         size = 1 << (2 * len(names) - 1).bit_length()

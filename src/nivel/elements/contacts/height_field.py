@@ -15,22 +15,9 @@ from nivel.machine.bodies.surface import Triangles
 from nivel.machine.core.record import Checked, Problem, superfluous
 from nivel.machine.given import Field, ManyRows, Maybe, TwoNumbers
 from nivel.machine.laws.time_function import check_varying
-from nivel.machine.units import tree
+from nivel.machine.units import quantity, tree
 from nivel.machine.units.arithmetic import PLACE, evaluate, render
 from nivel.machine.units.measure import measure
-from nivel.machine.units.quantity import (
-    Length,
-    PositiveLength,
-    Whole,
-    bound_tree,
-    check_kind,
-    expression_fault,
-    fault,
-    listed,
-    parameters_of,
-    reported,
-    shown,
-)
 
 FEWEST, MOST = 3, 250_000  # heights along a side, and in all
 POINTS: Final = (101, 101)
@@ -43,20 +30,20 @@ def _of_place(value: Any, info: ValidationInfo) -> str | None:
     if value is None:
         return None
     if isinstance(value, bool) or not isinstance(value, str | int | float):
-        raise fault(f"an expression of `x` and `y` was expected, as in `0.1*x^2`, got {shown(value)}")
-    text, parameters = str(value).strip(), parameters_of(info)
+        raise quantity.fault(f"an expression of `x` and `y` was expected, as in `0.1*x^2`, got {quantity.shown(value)}")
+    text, parameters = str(value).strip(), quantity.parameters_of(info)
     try:
         return render(_height(text, parameters))
     except tree.ExpressionError as problem:
-        raise expression_fault(problem, value, parameters) from None
+        raise quantity.expression_fault(problem, value, parameters) from None
     except tree.FaultyParameterError:
-        raise reported() from None
+        raise quantity.reported() from None
 
 
 def _height(text: str, parameters: tree.Parameters) -> tree.Node:
     """`text` as a length that varies with x and y only. Raises ExpressionError, of another name or a unit in their place with them."""
     try:
-        root = bound_tree(text, parameters, PLACE)
+        root = quantity.bound_tree(text, parameters, PLACE)
     except tree.UnknownNameError as problem:
         raise tree.ExpressionError(f"{problem}; {NAMES}") from None
     if any(isinstance(each, tree.Time) for each in tree.leaves(root)):
@@ -65,7 +52,7 @@ def _height(text: str, parameters: tree.Parameters) -> tree.Node:
         check_varying(root, text, "length", parameters, PLACE)
         return root
     try:
-        check_kind(text, measure(root), "length")
+        quantity.check_kind(text, measure(root), "length")
     except tree.ExpressionError as problem:
         raise tree.ExpressionError(f"{problem}; {NAMES}") from None
     return root
@@ -77,26 +64,28 @@ class HeightField(Checked):
     The first row of `values` and of a CSV file is at the least y, the top row of a picture at the greatest. Each row goes along x.
     """
 
-    size: TwoNumbers[PositiveLength] = Field("lengths of the rectangle along the x and y axes of the plane's marker")
-    values: Maybe[ManyRows[Annotated[tuple[Length, ...], BeforeValidator(listed)]]] = Field(
+    size: TwoNumbers[quantity.PositiveLength] = Field(
+        "lengths of the rectangle along the x and y axes of the plane's marker"
+    )
+    values: Maybe[ManyRows[Annotated[tuple[quantity.Length, ...], BeforeValidator(quantity.listed)]]] = Field(
         "rows of heights along z, from the least y on; along each row x grows", default=None
     )
     file: str | None = Field(
         "CSV file of rows of heights, or PNG picture in grey, relative to the machine file", default=None
     )
-    unit: PositiveLength = Field(
+    unit: quantity.PositiveLength = Field(
         "length of one unit of the `file`; of a picture the height of white above black", default=1.0
     )
     function: Annotated[str | None, BeforeValidator(_of_place)] = Field(
         "height [m] as an expression of `x` and `y` [m]", default=None
     )
-    points: TwoNumbers[Whole] = Field(
+    points: TwoNumbers[quantity.Whole] = Field(
         "of a `function` or of `roughness` alone: numbers of heights along x and along y", default=POINTS
     )
     roughness: Literal["A", "B", "C", "D", "E", "F", "G", "H"] | None = Field(
         "class of ISO 8608 of what is added to the heights along every line", default=None
     )
-    seed: Whole = Field("of the `roughness`: another number is another road of the same class", default=1)
+    seed: quantity.Whole = Field("of the `roughness`: another number is another road of the same class", default=1)
 
     def problems(self) -> Iterator[Problem]:
         if self.file is None and self.unit != 1.0:
@@ -192,7 +181,7 @@ def _rough(grade: str, seed: int, size: tuple[float, float], shape: tuple[int, i
 
 @lru_cache(maxsize=16)
 def _values_of(function: str, size: tuple[float, float], points: tuple[int, int]) -> NDArray[np.float64]:
-    root = bound_tree(function, {}, PLACE)
+    root = quantity.bound_tree(function, {}, PLACE)
     x, y = (np.linspace(-0.5, 0.5, n) * side for n, side in zip(points, size, strict=True))
     out = np.array([[evaluate(root, values={"x": float(a), "y": float(b)}) for a in x] for b in y])
     out.setflags(write=False)

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.elements.contacts import law
 from nivel.elements.contacts.ground import (
     CYLINDER,
     KIND,
@@ -24,23 +25,6 @@ from nivel.elements.contacts.ground import (
     ground_shape,
     is_above,
     shape_point,
-)
-from nivel.elements.contacts.law import (
-    COUNT,
-    MARKER,
-    NORMAL,
-    NUMBERS,
-    OTHER,
-    POINT,
-    SPEED,
-    SUMS,
-    Points,
-    begin_contact,
-    mean_speed,
-    needs_speed,
-    note_speed,
-    press,
-    report_contact,
 )
 from nivel.elements.contacts.shapes import ball_of_shape, corners_of_parts
 from nivel.elements.rows import element
@@ -272,7 +256,7 @@ def meshes(n, p, q):
 
 # numbers of ground with heights, at first work of `nivel.elements.contacts.height_way`; END: a pose, MISSED: the deepest overlap [m] that
 # fixed steps have passed, MISSED_AT [s], and SEEN: the deepest at their ends
-END, MISSED, MISSED_AT, SEEN, GROUND = (NUMBERS + at for at in (0, 18, 19, 20, 21))
+END, MISSED, MISSED_AT, SEEN, GROUND = (law.NUMBERS + at for at in (0, 18, 19, 20, 21))
 
 
 @stage
@@ -297,8 +281,8 @@ def find_point_over_ground(machine, k, n):
     """Where point n of contact k may touch and the normal there, left in the numbers; returns the overlap."""
     record = record_at(machine)
     markers, columns, numbers = record.markers, record.elements.columns[k], record.elements.number[k]
-    i, j, kind, size = columns[MARKER], columns[OTHER], columns[KIND], numbers[columns[SHAPE] :]
-    p, normal, ground = numbers[POINT:NORMAL], numbers[NORMAL:SPEED], numbers[GROUND:]
+    i, j, kind, size = columns[law.MARKER], columns[law.OTHER], columns[KIND], numbers[columns[SHAPE] :]
+    p, normal, ground = numbers[law.POINT : law.NORMAL], numbers[law.NORMAL : law.SPEED], numbers[GROUND:]
     r, A, o, B = markers.r[i], markers.A[i], markers.r[j], markers.A[j]
     below = axis(B, 2)
     if kind == CYLINDER:
@@ -317,25 +301,25 @@ def find_point_over_ground(machine, k, n):
 @element
 def apply_over_heights(machine, k, columns, numbers, t):
     """A contact with ground whose height varies."""
-    begin_contact(machine, k, t)
+    law.begin_contact(machine, k, t)
     if not is_above(machine, k, numbers[GROUND + HIGHEST]):
-        o = 0.0 * numbers[SUMS]
+        o = 0.0 * numbers[law.SUMS]
         total = o, o, o
-        for n in range(columns[COUNT]):
+        for n in range(columns[law.COUNT]):
             depth = find_point_over_ground(machine, k, n)
-            if needs_speed(machine, k, n, depth):
-                note_speed(machine, k, mean_speed(machine, k, n))
-            total = plus(total, times(press(machine, k, n, depth, t), numbers[NORMAL:SPEED]))
+            if law.needs_speed(machine, k, n, depth):
+                law.note_speed(machine, k, law.mean_speed(machine, k, n))
+            total = plus(total, times(law.press(machine, k, n, depth, t), numbers[law.NORMAL : law.SPEED]))
         squared = dot(total, total)
         if real(squared) > 0.0:
-            put(numbers, NORMAL, times(1.0 / np.sqrt(squared), total))
-    report_contact(machine, k)
+            put(numbers, law.NORMAL, times(1.0 / np.sqrt(squared), total))
+    law.report_contact(machine, k)
 
 
-def points_over_heights(force: Contact, bodies: Sequence[Touching]) -> Points:
+def points_over_heights(force: Contact, bodies: Sequence[Touching]) -> law.Points:
     """Of a shape on ground with heights."""
     assert force.heights is not None
     kind, count, size = ground_shape(bodies[0], corners_of_parts)
-    work = [0.0] * (GROUND - NUMBERS)
+    work = [0.0] * (GROUND - law.NUMBERS)
     numbers = [*work, *numbers_of(force.heights.heights, force.heights.size)]
-    return Points(count, ball_of_shape(bodies[0]), [kind, NUMBERS + len(numbers)], numbers + size)
+    return law.Points(count, ball_of_shape(bodies[0]), [kind, law.NUMBERS + len(numbers)], numbers + size)

@@ -15,18 +15,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from nivel.elements.contacts.law import (
-    COUNT,
-    MARKER,
-    NORMAL,
-    NUMBERS,
-    OTHER,
-    POINT,
-    Points,
-    is_far,
-    mean_speed,
-    pair,
-)
+from nivel.elements.contacts import law
 from nivel.elements.contacts.shapes import ball_of_shape, part_of, polytope_of
 from nivel.kernels.algebra.analytic import absolute, real
 from nivel.kernels.algebra.spatial import dot
@@ -319,8 +308,8 @@ def other_end(kind, x, a, half, n, t, radius):
 def ends_of(machine, k):
     """(marker of the round body, marker of the other one, 1 or -1 where the round body is the second one) of contact k."""
     elements = record_at(machine).elements
-    i, j = np.int64(elements.columns[k, MARKER]), np.int64(elements.columns[k, OTHER])
-    return (j, i, -1.0) if real(elements.number[k, NUMBERS + SWAPPED]) == 1.0 else (i, j, 1.0)
+    i, j = np.int64(elements.columns[k, law.MARKER]), np.int64(elements.columns[k, law.OTHER])
+    return (j, i, -1.0) if real(elements.number[k, law.NUMBERS + SWAPPED]) == 1.0 else (i, j, 1.0)
 
 
 @stage
@@ -328,21 +317,21 @@ def note_place(machine, k, j, y, g, sign):
     """Leave in the numbers of contact k the point y and the normal g, in axes of marker j, which is turned by `sign`."""
     record = record_at(machine)
     A, r, numbers = record.markers.A[j], record.markers.r[j], record.elements.number[k]
-    put(numbers, POINT, plus(r, turned(A, y)))
-    put(numbers, NORMAL, times(sign, turned(A, g)))
+    put(numbers, law.POINT, plus(r, turned(A, y)))
+    put(numbers, law.NORMAL, times(sign, turned(A, g)))
 
 
-@pair(is_far, mean_speed)
+@law.pair(law.is_far, law.mean_speed)
 def apply(machine, k, n):
     """A round body on another one: where its end may touch, or, as the last one whose normal is that of the contact, its deepest point."""
     record = record_at(machine)
-    markers, more = record.markers, record.elements.number[k, NUMBERS:]
+    markers, more = record.markers, record.elements.number[k, law.NUMBERS :]
     i, j, sign = ends_of(machine, k)
     kind, shape, half = np.int64(real(more[SHAPE])), more[NUMBERS_OF_SHAPE:], more[HALF]
     A = markers.A[j]
     x, a = seen(A, minus(markers.r[i], markers.r[j])), seen(A, axis(markers.A[i], 2))
     t, less = nearest_of_segment(kind, x, a, half, shape), 0.0 * half
-    if n + 1 < record.elements.columns[k, COUNT]:
+    if n + 1 < record.elements.columns[k, law.COUNT]:
         t, less = other_end(kind, x, a, half, shape, t, more[BALL])
     y = plus(x, times(t, a))
     distance, g0, g1, g2 = surface_distance(kind, y, shape)
@@ -367,7 +356,7 @@ def distance_numbers(body: Touching, part: int | None) -> tuple[int, list[float]
     raise ValueError(f"{body.name} has no shape that can touch")
 
 
-def points_of_round(force: Contact, bodies: Sequence[Touching]) -> Points:
+def points_of_round(force: Contact, bodies: Sequence[Touching]) -> law.Points:
     """Of a sphere or a capsule and another shape."""
     # a sphere before a capsule: it has one point
     first = next((k for k, body in enumerate(bodies) if isinstance(body.shape, Sphere)), None)
@@ -379,4 +368,4 @@ def points_of_round(force: Contact, bodies: Sequence[Touching]) -> Points:
     kind, numbers = distance_numbers(other, part_of(force, bodies, 1 - first))
     core = other.shape.radius if isinstance(other.shape, Capsule) else 0.0
     balls = own.radius + half + ball_of_shape(other)
-    return Points(2 if half > 0.0 else 1, balls, [], [float(first), own.radius, half, core, float(kind), *numbers])
+    return law.Points(2 if half > 0.0 else 1, balls, [], [float(first), own.radius, half, core, float(kind), *numbers])

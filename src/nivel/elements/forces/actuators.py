@@ -16,19 +16,7 @@ from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import evaluate_function, evaluate_motion
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
-from nivel.machine.core.coefficient import (
-    CoordinateDamping,
-    CoordinateEffortFunction,
-    CoordinateIntegral,
-    CoordinatePosition,
-    CoordinateSpeed,
-    CoordinateStiffness,
-    CoordinateValue,
-    Exponent,
-    PositiveEffort,
-    PositiveGain,
-    Restitution,
-)
+from nivel.machine.core import coefficient
 from nivel.machine.core.element import Acts, ForceElement, Inequalities
 from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.given import Field, Maybe
@@ -68,11 +56,11 @@ class Stop(ForceElement):
 
     type: Literal["stop"] = "stop"
     coordinate: CoordinateReference
-    lower: Maybe[CoordinateValue] = Field("end of the way on the negative side", default=None)
-    upper: Maybe[CoordinateValue] = Field("end of the way on the positive side", default=None)
-    exponent: Exponent = Field("of the depth", default=1.0)
+    lower: Maybe[coefficient.CoordinateValue] = Field("end of the way on the negative side", default=None)
+    upper: Maybe[coefficient.CoordinateValue] = Field("end of the way on the positive side", default=None)
+    exponent: coefficient.Exponent = Field("of the depth", default=1.0)
     stiffness: PowerStiffness
-    restitution: Restitution = Field("speed after the impact by the speed before it; 1 loses no energy")
+    restitution: coefficient.Restitution = Field("speed after the impact by the speed before it; 1 loses no energy")
 
     def problems(self) -> Iterator[Problem]:
         if self.lower is None and self.upper is None:
@@ -91,10 +79,10 @@ class Motor(ForceElement):
 
     type: Literal["motor"] = "motor"
     coordinate: CoordinateReference
-    effort: Maybe[CoordinateEffortFunction] = Field("force or torque", default=None)
-    speed: Maybe[CoordinateSpeed] = Field("held with the effort gain · (speed - rate)", default=None)
-    gain: Maybe[PositiveGain] = Field("effort per missing speed", default=None)
-    limit: Maybe[PositiveEffort] = Field("greatest magnitude of the effort", default=None)
+    effort: Maybe[coefficient.CoordinateEffortFunction] = Field("force or torque", default=None)
+    speed: Maybe[coefficient.CoordinateSpeed] = Field("held with the effort gain · (speed - rate)", default=None)
+    gain: Maybe[coefficient.PositiveGain] = Field("effort per missing speed", default=None)
+    limit: Maybe[coefficient.PositiveEffort] = Field("greatest magnitude of the effort", default=None)
 
     def problems(self) -> Iterator[Problem]:
         if self.effort is None and self.speed is None:
@@ -117,11 +105,11 @@ class Servo(ForceElement):
 
     type: Literal["servo"] = "servo"
     coordinate: CoordinateReference
-    target: CoordinatePosition = Field("length or angle that the coordinate shall have")
-    stiffness: CoordinateStiffness = Field("effort per error (proportional gain)")
-    damping: CoordinateDamping = Field("effort per rate of the error (derivative gain)", default=0.0)
-    integral: CoordinateIntegral = Field("effort per error and second (integral gain)", default=0.0)
-    limit: Maybe[PositiveEffort] = Field("greatest magnitude of the effort", default=None)
+    target: coefficient.CoordinatePosition = Field("length or angle that the coordinate shall have")
+    stiffness: coefficient.CoordinateStiffness = Field("effort per error (proportional gain)")
+    damping: coefficient.CoordinateDamping = Field("effort per rate of the error (derivative gain)", default=0.0)
+    integral: coefficient.CoordinateIntegral = Field("effort per error and second (integral gain)", default=0.0)
+    limit: Maybe[coefficient.PositiveEffort] = Field("greatest magnitude of the effort", default=None)
 
 
 class StopRow(Row):

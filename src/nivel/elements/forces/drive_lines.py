@@ -13,15 +13,7 @@ from nivel.errors import Fault, ModelError
 from nivel.kernels.elements import friction
 from nivel.kernels.record.record import NONE
 from nivel.known import SystemBuilder
-from nivel.machine.core.coefficient import (
-    CoordinateDamping,
-    CoordinateEffortFunction,
-    NotNegativeRate,
-    PositiveCoordinateStiffness,
-    PositiveEffort,
-    PositiveNumber,
-    Share,
-)
+from nivel.machine.core import coefficient
 from nivel.machine.core.element import Acts, ForceElement, Holds, Inequalities
 from nivel.machine.core.record import Name, Problem, superfluous
 from nivel.machine.given import Field, Maybe, OneNumber
@@ -59,9 +51,9 @@ class Brake(ForceElement):
 
     type: Literal["brake"] = "brake"
     coordinate: CoordinateReference
-    capacity: CoordinateEffortFunction = Field(CAPACITY)
-    static_ratio: PositiveNumber = Field(STATIC_RATIO, default=1.0)
-    stribeck_rate: NotNegativeRate = Field(STRIBECK_RATE, default=0.0)
+    capacity: coefficient.CoordinateEffortFunction = Field(CAPACITY)
+    static_ratio: coefficient.PositiveNumber = Field(STATIC_RATIO, default=1.0)
+    stribeck_rate: coefficient.NotNegativeRate = Field(STRIBECK_RATE, default=0.0)
 
     def problems(self) -> Iterator[Problem]:
         yield from problems_of_capacity(self.capacity)
@@ -78,9 +70,9 @@ class Clutch(DriveLine):
     inequalities: ClassVar[Inequalities] = LOCKS
 
     type: Literal["clutch"] = "clutch"
-    capacity: CoordinateEffortFunction = Field(CAPACITY)
-    static_ratio: PositiveNumber = Field(STATIC_RATIO, default=1.0)
-    stribeck_rate: NotNegativeRate = Field(STRIBECK_RATE, default=0.0)
+    capacity: coefficient.CoordinateEffortFunction = Field(CAPACITY)
+    static_ratio: coefficient.PositiveNumber = Field(STATIC_RATIO, default=1.0)
+    stribeck_rate: coefficient.NotNegativeRate = Field(STRIBECK_RATE, default=0.0)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -138,11 +130,11 @@ class Freewheel(DriveLine):
     against: Maybe[CoordinateReference] = Field(  # type: ignore[assignment]
         "coordinate that takes the first one along; without it: a backstop, it never goes backwards", default=None
     )
-    capacity: Maybe[PositiveEffort] = Field("effort beyond which it slips", default=None, absent="none")
-    stiffness: Maybe[PositiveCoordinateStiffness] = Field(
+    capacity: Maybe[coefficient.PositiveEffort] = Field("effort beyond which it slips", default=None, absent="none")
+    stiffness: Maybe[coefficient.PositiveCoordinateStiffness] = Field(
         "of what takes the coordinate along", default=None, absent="rigid"
     )
-    damping: CoordinateDamping = Field("beside the stiffness", default=0.0)
+    damping: coefficient.CoordinateDamping = Field("beside the stiffness", default=0.0)
 
     @property
     def is_rigid(self) -> bool:
@@ -186,7 +178,7 @@ class TransmissionLoss(ForceElement):
     type: Literal["transmission-loss"] = "transmission-loss"
     coupling: Name = Field("coupling, or joint of type screw")
     coordinate: CoordinateReference = Field("that drives, one of the coupling's or the joint's")
-    efficiency: Share = Field("power out by power in, where the coordinate drives")
+    efficiency: coefficient.Share = Field("power out by power in, where the coordinate drives")
     backward_efficiency: Maybe[Efficiency] = Field(
         "the same where the coordinate is driven; zero or less: self-locking", default=None, absent="2 - 1/efficiency"
     )

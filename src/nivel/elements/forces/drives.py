@@ -22,16 +22,7 @@ from nivel.kernels.record.function import NUMBER, evaluate_function, table_value
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
-from nivel.machine.core.coefficient import (
-    CoordinateDamping,
-    CoordinateEffortFunction,
-    CoordinateStiffness,
-    NotNegative,
-    NotNegativeValue,
-    OfCoordinate,
-    Torques,
-    TorsionalDamping,
-)
+from nivel.machine.core import coefficient
 from nivel.machine.core.element import ForceElement
 from nivel.machine.core.record import Checked, Problem, superfluous
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber, OneRecord
@@ -42,18 +33,18 @@ from nivel.machine.units.quantity import AngularVelocity, Quantity, listed
 from nivel.machine.uses.coordinate_reference import CoordinateReference, resolve
 from nivel.native.function import stage
 
-Gear = Annotated[OneNumber, OfCoordinate(("turning per length", "number"), "positive")]
-Resistance = Annotated[OneNumber, Quantity("resistance"), NotNegative]
-Inductance = Annotated[OneNumber, Quantity("inductance"), NotNegative]
+Gear = Annotated[OneNumber, coefficient.OfCoordinate(("turning per length", "number"), "positive")]
+Resistance = Annotated[OneNumber, Quantity("resistance"), coefficient.NotNegative]
+Inductance = Annotated[OneNumber, Quantity("inductance"), coefficient.NotNegative]
 TorqueConstant = Annotated[OneNumber, Quantity("torque per current", positive=True)]
-RotorInertia = Annotated[OneNumber, Quantity("inertia"), NotNegative]
-NotNegativeTorque = Annotated[OneNumber, Quantity("torque"), NotNegative]
+RotorInertia = Annotated[OneNumber, Quantity("inertia"), coefficient.NotNegative]
+NotNegativeTorque = Annotated[OneNumber, Quantity("torque"), coefficient.NotNegative]
 PositiveTorque = Annotated[OneNumber, Quantity("torque", positive=True)]
 Voltage = Annotated[OneFunction, varying("voltage")]
 PositiveVoltage = Annotated[OneNumber, Quantity("voltage", positive=True)]
 PositiveCurrent = Annotated[OneNumber, Quantity("current", positive=True)]
 PositiveTurning = Annotated[OneNumber, Quantity("angular velocity", positive=True)]
-NotNegativeTime = Annotated[OneNumber, Quantity("time"), NotNegative]
+NotNegativeTime = Annotated[OneNumber, Quantity("time"), coefficient.NotNegative]
 Speeds = Annotated[ManyNumbers[AngularVelocity], BeforeValidator(listed)]
 
 
@@ -61,7 +52,7 @@ class TorqueSpeed(Checked):
     """The greatest torque of a motor over the magnitude of its speed; beyond the table its end values hold."""
 
     speeds: Speeds = Field("of the motor's shaft, from 0 on, increasing")
-    torques: Torques = Field("greatest torque there, not negative")
+    torques: coefficient.Torques = Field("greatest torque there, not negative")
 
     def problems(self) -> Iterator[Problem]:
         if len(self.speeds) != len(self.torques) or len(self.speeds) < 2:
@@ -92,11 +83,13 @@ class Drive(ForceElement):
     resistance: Resistance = Field("of the winding", default=0.0)
     friction_torque: NotNegativeTorque = Field("dry friction at the shaft", default=0.0)
     transition_speed: PositiveTurning = Field("of the shaft, over which the dry friction changes its sign", default=1.0)
-    viscous: TorsionalDamping = Field("friction per speed of the shaft", default=0.0)
+    viscous: coefficient.TorsionalDamping = Field("friction per speed of the shaft", default=0.0)
     rotor_inertia: RotorInertia = Field("of what turns with the shaft; needs a `gear_stiffness`", default=0.0)
-    gear_stiffness: CoordinateStiffness = Field("of the gear, at the coordinate; 0: rigid", default=0.0)
-    gear_damping: CoordinateDamping = Field("of the gear, at the coordinate", default=0.0)
-    backlash: NotNegativeValue = Field("play of an elastic gear, at the coordinate, from flank to flank", default=0.0)
+    gear_stiffness: coefficient.CoordinateStiffness = Field("of the gear, at the coordinate; 0: rigid", default=0.0)
+    gear_damping: coefficient.CoordinateDamping = Field("of the gear, at the coordinate", default=0.0)
+    backlash: coefficient.NotNegativeValue = Field(
+        "play of an elastic gear, at the coordinate, from flank to flank", default=0.0
+    )
 
     def problems(self) -> Iterator[Problem]:
         if (self.rotor_inertia > 0.0) != (self.gear_stiffness > 0.0):
@@ -127,7 +120,7 @@ class ServoMotor(Drive):
     """A motor with its own current loop: its torque follows the command with a time constant, within its limits."""
 
     type: Literal["servo-motor"] = "servo-motor"
-    effort: CoordinateEffortFunction = Field("command, as an effort on the coordinate, without losses")
+    effort: coefficient.CoordinateEffortFunction = Field("command, as an effort on the coordinate, without losses")
     time_constant: NotNegativeTime = Field("of the current loop; 0: at once", default=1e-3)
     torque_constant: Maybe[TorqueConstant] = Field("N m/A, for the current and its losses", default=None)
     torque_limit: Maybe[PositiveTorque] = Field("greatest magnitude of the torque at the shaft", default=None)

@@ -23,18 +23,7 @@ from nivel.kernels.algebra.analytic import maximum, minimum, real
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.record import record_at
 from nivel.known import SystemBuilder
-from nivel.machine.core.coefficient import (
-    CoordinateDamping,
-    CoordinateValue,
-    Damping,
-    NotNegativeForce,
-    NotNegativeLength,
-    NotNegativeValue,
-    PositiveAngle,
-    PositiveCoordinateStiffness,
-    PositiveNumber,
-    Truth,
-)
+from nivel.machine.core import coefficient
 from nivel.machine.core.element import Acts, ForceElement, Holds, Inequalities
 from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.given import Field, Maybe, OneNumber, TwoNumbers
@@ -75,10 +64,10 @@ class Shaft(DriveLine):
     )
 
     type: Literal["shaft"] = "shaft"
-    stiffness: PositiveCoordinateStiffness
-    damping: CoordinateDamping = Field(default=0.0)
-    free_value: CoordinateValue = Field("of the difference, where the effort is zero", default=0.0)
-    backlash: NotNegativeValue = Field("play, from flank to flank", default=0.0)
+    stiffness: coefficient.PositiveCoordinateStiffness
+    damping: coefficient.CoordinateDamping = Field(default=0.0)
+    free_value: coefficient.CoordinateValue = Field("of the difference, where the effort is zero", default=0.0)
+    backlash: coefficient.NotNegativeValue = Field("play, from flank to flank", default=0.0)
 
 
 PositiveStiffness = Annotated[OneNumber, Quantity("stiffness", positive=True)]
@@ -121,15 +110,15 @@ class BeltDrive(ForceElement):
     coordinate: CoordinateReference = Field("angle of the first pulley")
     against: CoordinateReference = Field("angle of the second one")
     radii: TwoNumbers[PositiveLength] = Field("of the pulleys, or of the pitch circles")
-    crossed: Truth = Field("the belt crosses itself: the pulleys turn opposite ways", default=False)
+    crossed: coefficient.Truth = Field("the belt crosses itself: the pulleys turn opposite ways", default=False)
     stiffness: PositiveStiffness = Field("of each strand")
-    damping: Damping = Field("of each strand", default=0.0)
-    pretension: NotNegativeForce = Field("of each strand, without torque", default=0.0)
-    slack: NotNegativeLength = Field("of each strand, as of a chain that sags", default=0.0)
-    friction: Maybe[PositiveNumber] = Field(
+    damping: coefficient.Damping = Field("of each strand", default=0.0)
+    pretension: coefficient.NotNegativeForce = Field("of each strand, without torque", default=0.0)
+    slack: coefficient.NotNegativeLength = Field("of each strand, as of a chain that sags", default=0.0)
+    friction: Maybe[coefficient.PositiveNumber] = Field(
         "coefficient of friction on the pulleys", default=None, absent="none: teeth, it does not slip"
     )
-    wrap: PositiveAngle = Field("angle over which it touches the pulley on which it slips", default=pi)
+    wrap: coefficient.PositiveAngle = Field("angle over which it touches the pulley on which it slips", default=pi)
 
     @property
     def rise(self) -> float:

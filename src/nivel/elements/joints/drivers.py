@@ -14,13 +14,7 @@ from nivel.errors import located
 from nivel.kernels.bodies.coordinate import ROTATION, TRANSLATION
 from nivel.known import RowTable, SystemBuilder
 from nivel.lazy import nivel
-from nivel.machine.core.coefficient import (
-    CoordinateAcceleration,
-    CoordinateMotion,
-    CoordinateRate,
-    CoordinateSpeed,
-    Truth,
-)
+from nivel.machine.core import coefficient
 from nivel.machine.core.orientation import AxisSequence
 from nivel.machine.core.record import GROUND, Checked, Name, Problem, superfluous
 from nivel.machine.given import Field, Maybe, OneRecord
@@ -152,21 +146,21 @@ class Driver(Checked):
         "axis of `relative_to` about which the marker is turned, measured between the axes that follow it", default=None
     )
     relative_to: Name | None = Field("marker from which it is measured; default `ground`", default=None)
-    value: Maybe[CoordinateMotion] = Field("length or angle, a function of time", default=None)
-    speed: Maybe[CoordinateSpeed] = Field(
+    value: Maybe[coefficient.CoordinateMotion] = Field("length or angle, a function of time", default=None)
+    speed: Maybe[coefficient.CoordinateSpeed] = Field(
         "in place of `value`: rate, a function of time; the coordinate begins where it is placed", default=None
     )
-    acceleration: Maybe[CoordinateAcceleration] = Field(
+    acceleration: Maybe[coefficient.CoordinateAcceleration] = Field(
         "in place of `value`: a function of time; the coordinate begins where it is placed", default=None
     )
-    start_speed: CoordinateRate = Field("with `acceleration`: rate at t = 0", default=0.0)
+    start_speed: coefficient.CoordinateRate = Field("with `acceleration`: rate at t = 0", default=0.0)
     position: Annotated[Maybe[ThreeFunctions[LengthMotion]], BeforeValidator(listed)] = Field(
         "of the marker's point from that of `relative_to`, along its axes: three functions of time", default=None
     )
     orientation: Maybe[OneRecord[DrivenOrientation]] = Field(
         "of the marker's axes in those of `relative_to`, functions of time", default=None
     )
-    from_start: Truth = Field(
+    from_start: coefficient.Truth = Field(
         "the coordinate moves from where it is placed by what `value` changes from its value at t = 0", default=False
     )
 

@@ -1,17 +1,7 @@
 """Embedded explicit Runge–Kutta methods: step with an error estimate. Their stages are the rows of `run.stages`."""
 
+from nivel.integrate.loop import step_control
 from nivel.integrate.loop.run import RESTART, STEP, TIME, add_rows, evaluate_at, run_at
-from nivel.integrate.loop.step_control import (
-    allowed,
-    enter,
-    exceeds_rotation_limit,
-    factor_after_rejection,
-    factor_after_success,
-    is_fresh,
-    reach,
-    reject,
-    too_small,
-)
 from nivel.kernels.algebra.rows import copy
 from nivel.kernels.core.status import OK
 from nivel.native.function import leaf, shared
@@ -37,8 +27,8 @@ def evaluate_stages(evaluate, machine, history, h, A, c, first, last):
 def begin(evaluate, machine, history, order, tolerance):
     """At the begin of a step, see `step_control.enter`; the first stage is the rate of the accepted state. The error falls with h^order."""
     run = run_at(history)
-    enter(evaluate, machine, history, order - 1.0, tolerance)
-    if is_fresh(run):
+    step_control.enter(evaluate, machine, history, order - 1.0, tolerance)
+    if step_control.is_fresh(run):
         run.numbers[LAST_ERROR] = 1.0
         run.counter[RESTART] = 0
     run.numbers[REPEATED] = 0.0
@@ -52,15 +42,17 @@ def is_accepted(machine, history, h, order, status, error):
     The last evaluation was one at the end of the step.
     """
     run = run_at(history)
-    if status == OK and error <= 1.0 and exceeds_rotation_limit(machine, h) < 1.0:
-        reject(run, h, exceeds_rotation_limit(machine, h))
+    if status == OK and error <= 1.0 and step_control.exceeds_rotation_limit(machine, h) < 1.0:
+        step_control.reject(run, h, step_control.exceeds_rotation_limit(machine, h))
         run.numbers[REPEATED] = 1.0
         return False
     if status != OK or not error <= 1.0:
-        reject(run, h, factor_after_rejection(status, error, order))
+        step_control.reject(run, h, step_control.factor_after_rejection(status, error, order))
         run.numbers[REPEATED] = 1.0
         return False
-    run.clock[STEP] = h * factor_after_success(error, run.numbers[LAST_ERROR], order, run.numbers[REPEATED] == 1.0)
+    run.clock[STEP] = h * step_control.factor_after_success(
+        error, run.numbers[LAST_ERROR], order, run.numbers[REPEATED] == 1.0
+    )
     run.numbers[LAST_ERROR] = error
     copy(run.trial, run.y)
     return True
@@ -74,13 +66,13 @@ def take_step(evaluate, machine, history, order, share, attempt):
     this one.
     """
     run = run_at(history)
-    tolerance = allowed(run, share)
+    tolerance = step_control.allowed(run, share)
     begin(evaluate, machine, history, order, tolerance)
     status, error = OK, 0.0
     while True:
-        h = reach(run)
+        h = step_control.reach(run)
         if h == 0.0:
-            return too_small(run, status, error), 0.0
+            return step_control.too_small(run, status, error), 0.0
         status, error = attempt(evaluate, machine, history, h)
         if is_accepted(machine, history, h, order, status, error / tolerance):
             return status, h

@@ -7,22 +7,8 @@ whatever changes the state afterwards by round-off (corrections, energies).
 
 import numpy as np
 
+from nivel.integrate.loop import crossing
 from nivel.integrate.loop import run as of_run
-from nivel.integrate.loop.crossing import (
-    NEVER,
-    SHARE,
-    end_at,
-    find_crossings,
-    is_mark,
-    is_wanted,
-    locate,
-    locate_between,
-    probe,
-    read_values,
-    side_of,
-    value_at,
-    value_of,
-)
 from nivel.integrate.loop.dense import cubic
 from nivel.integrate.loop.samples import ends_at_switches
 from nivel.integrate.loop.surfaces import find_contacts
@@ -48,10 +34,10 @@ def is_back(machine, history, k):
     values, watched = of_run.run_at(history).event_values, record_at(machine).watched
     side = values[of_run.SIDE, k]
     return (
-        not is_mark(watched, k)
+        not crossing.is_mark(watched, k)
         and side != 0.0
         and side * values[of_run.AFTER, k] >= 0.0
-        and values[of_run.WHEN, k] == NEVER
+        and values[of_run.WHEN, k] == crossing.NEVER
     )
 
 
@@ -62,12 +48,12 @@ def note_pass(evaluate, correct, machine, history, k, theta, value, end):
     values, watched = of_run.run_at(history).event_values, record_at(machine).watched
     side = values[of_run.SIDE, k]
     values[of_run.TWICE, k] = 1.0
-    if is_wanted(watched.event[k, DIRECTION], -side):
+    if crossing.is_wanted(watched.event[k, DIRECTION], -side):
         values[of_run.TO, k] = -side
-        status, values[of_run.WHEN, k] = locate(evaluate, correct, machine, history, k, theta, value)
+        status, values[of_run.WHEN, k] = crossing.locate(evaluate, correct, machine, history, k, theta, value)
     else:
         values[of_run.TO, k] = side
-        status, values[of_run.WHEN, k] = locate_between(
+        status, values[of_run.WHEN, k] = crossing.locate_between(
             evaluate, correct, machine, history, k, -side, theta, value, end, values[of_run.AFTER, k]
         )
     return status
@@ -78,14 +64,17 @@ def look_at(evaluate, correct, machine, history, theta, end):
     """Note the events that are on their other side at the share θ of the step. Returns a status."""
     run, watched = of_run.run_at(history), record_at(machine).watched
     values, events = run.event_values, watched.event.shape[0]
-    status = probe(evaluate, correct, machine, history, theta)
+    status = crossing.probe(evaluate, correct, machine, history, theta)
     if status != OK:
         return status
     call_hook(machine, WATCH, 0, run.clock[of_run.TIME] + theta * run.clock[of_run.LENGTH])
     for k in range(events):
-        values[of_run.BETWEEN, k] = value_of(watched, k)
+        values[of_run.BETWEEN, k] = crossing.value_of(watched, k)
     for k in range(events):
-        if is_back(machine, history, k) and side_of(values[of_run.BETWEEN, k], k, events) == -values[of_run.SIDE, k]:
+        if (
+            is_back(machine, history, k)
+            and crossing.side_of(values[of_run.BETWEEN, k], k, events) == -values[of_run.SIDE, k]
+        ):
             status = note_pass(evaluate, correct, machine, history, k, theta, values[of_run.BETWEEN, k], end)
             if status != OK:
                 return status
@@ -112,23 +101,23 @@ def find_passes(evaluate, correct, machine, history, end):
     for k in range(events):
         values[of_run.TWICE, k] = 0.0
     for m in range(events):
-        if not is_mark(watched, m) or not 0.0 < values[of_run.WHEN, m] < end:
+        if not crossing.is_mark(watched, m) or not 0.0 < values[of_run.WHEN, m] < end:
             continue
         theta = values[of_run.WHEN, m]
         status = look_at(evaluate, correct, machine, history, theta, end)
         if status == OK:
-            near = max(theta - BEFORE_A_MARK * SHARE, 0.0)
+            near = max(theta - BEFORE_A_MARK * crossing.SHARE, 0.0)
             status = look_at(evaluate, correct, machine, history, near, end)
         if status != OK:
             return status
     for k in range(events):
         if not is_back(machine, history, k) or not bends(run, k, end):
             continue
-        status, between = value_at(evaluate, correct, machine, history, k, 0.5 * end)
-        theta, value = NEVER, 0.0
+        status, between = crossing.value_at(evaluate, correct, machine, history, k, 0.5 * end)
+        theta, value = crossing.NEVER, 0.0
         if status == OK:
             status, theta, value = look_between(evaluate, correct, machine, history, k, end, between)
-        if status == OK and theta < NEVER:
+        if status == OK and theta < crossing.NEVER:
             status = note_pass(evaluate, correct, machine, history, k, theta, value, end)
         if status != OK:
             return status
@@ -140,10 +129,10 @@ def begin_events(machine, history):
     """The sides at the start of a run, in the state just evaluated. Returns a status."""
     run, values = of_run.run_at(history), of_run.run_at(history).event_values
     events = record_at(machine).watched.event.shape[0]
-    status = read_values(machine, history, of_run.BEFORE, run.clock[of_run.TIME])
-    values[of_run.WHEN, :] = NEVER
+    status = crossing.read_values(machine, history, of_run.BEFORE, run.clock[of_run.TIME])
+    values[of_run.WHEN, :] = crossing.NEVER
     for k in range(min(values.shape[1], first_switch(machine))):
-        values[of_run.SIDE, k] = side_of(values[of_run.BEFORE, k], k, events)
+        values[of_run.SIDE, k] = crossing.side_of(values[of_run.BEFORE, k], k, events)
     return status
 
 
@@ -154,7 +143,7 @@ def first_stop(watched, when, fixed):
     for k in range(watched.event.shape[0]):
         stop = watched.event[k, STOP]
         ends = stop == ENDS_RUN or (stop == ENDS_STEP and not fixed)
-        if ends and when[k] < NEVER and (first < 0 or when[k] < when[first]):
+        if ends and when[k] < crossing.NEVER and (first < 0 or when[k] < when[first]):
             first = k
     return first
 
@@ -172,38 +161,38 @@ def find_events(evaluate, correct, machine, history):
     status = of_run.evaluate_at(evaluate, machine, run, clock[of_run.REACHED], run.y, run.scratch)
     counter[of_run.KNOWN] = 1
     if status == OK:
-        status = read_values(machine, history, of_run.AFTER, clock[of_run.REACHED])
+        status = crossing.read_values(machine, history, of_run.AFTER, clock[of_run.REACHED])
     if status != OK:
         return status
     if counter[of_run.DENSE] == 0:
         cubic(run, clock[of_run.LENGTH], run.rate, run.scratch)
-    values[of_run.WHEN, :] = NEVER
+    values[of_run.WHEN, :] = crossing.NEVER
     if has_switches(machine, run):
         pass_unseen(evaluate, machine, history)
     status, end = find_contacts(evaluate, correct, machine, history, events)
     if status == OK:
-        status = find_crossings(evaluate, correct, machine, history, 0, events, end)
+        status = crossing.find_crossings(evaluate, correct, machine, history, 0, events, end)
     if status == OK and events > 0:
         status = find_passes(evaluate, correct, machine, history, end)
     stop = first_stop(watched, values[of_run.WHEN], counter[of_run.ALL_STEPS] > 0 and not ends_at_switches(run))
     if status == OK and stop >= 0:
         end = values[of_run.WHEN, stop]
-        status = end_at(evaluate, correct, machine, history, end)
+        status = crossing.end_at(evaluate, correct, machine, history, end)
         if watched.event[stop, STOP] == ENDS_RUN:
             counter[of_run.STOPPED] = stop + 1
     note_slopes(run)
     for k in range(count):
-        now = side_of(values[of_run.AFTER, k], k, events)
+        now = crossing.side_of(values[of_run.AFTER, k], k, events)
         if k >= events:
             values[of_run.SIDE, k] = now if k < first_switch(machine) else values[of_run.SIDE, k]
         elif values[of_run.WHEN, k] <= end:
             values[of_run.SIDE, k] = now if values[of_run.TWICE, k] == 1.0 and now != 0.0 else -values[of_run.SIDE, k]
-            if is_mark(watched, k):
-                values[of_run.WHEN, k] = NEVER
+            if crossing.is_mark(watched, k):
+                values[of_run.WHEN, k] = crossing.NEVER
             else:
                 record_at(machine).sampled.came[k] = 1
         else:
-            values[of_run.WHEN, k] = NEVER
+            values[of_run.WHEN, k] = crossing.NEVER
             values[of_run.SIDE, k] = now if now != 0.0 else values[of_run.SIDE, k]
         values[of_run.BEFORE, k], values[of_run.RATE_BEFORE, k] = values[of_run.AFTER, k], values[of_run.RATE_AFTER, k]
     return status
@@ -217,7 +206,7 @@ def hand_out_events(machine, history):
     while True:
         next_one = -1
         for k in range(events):
-            if when[k] < NEVER and (next_one < 0 or when[k] < when[next_one]):
+            if when[k] < crossing.NEVER and (next_one < 0 or when[k] < when[next_one]):
                 next_one = k
         if next_one < 0:
             return OK
@@ -226,5 +215,5 @@ def hand_out_events(machine, history):
         row = run.events[counter[of_run.EVENTS]]
         row[0] = min(run.clock[of_run.TIME] + when[next_one] * run.clock[of_run.LENGTH], run.clock[of_run.REACHED])
         row[1], row[2] = next_one, run.event_values[of_run.TO, next_one]
-        when[next_one] = NEVER
+        when[next_one] = crossing.NEVER
         counter[of_run.EVENTS] += 1

@@ -7,19 +7,8 @@ closed, or where it is closed far from the prediction, which may be another bran
 
 import numpy as np
 
+from nivel.integrate.loop import run as of_run
 from nivel.integrate.loop.loop import at_end, finite, is_due, write_frame
-from nivel.integrate.loop.run import (
-    ACCEPTED,
-    BUDGET,
-    DONE_STEPS,
-    EVALUATED,
-    FRAMES,
-    REACHED,
-    REJECTED,
-    TIME,
-    evaluate_at,
-    run_at,
-)
 from nivel.integrate.loop.samples import time_of
 from nivel.kernels.algebra.rotation import product
 from nivel.kernels.algebra.rows import copy
@@ -103,7 +92,7 @@ def keep(machine, run, t):
     for i in range(run.y.shape[0]):
         run.previous[i] = run.y[i]
         run.rate[i] = run.scratch[i]
-    run.clock[TIME], run.clock[ACCEPTED], run.clock[REACHED] = t, t, t
+    run.clock[of_run.TIME], run.clock[of_run.ACCEPTED], run.clock[of_run.REACHED] = t, t, t
     accept(machine, t)
 
 
@@ -111,7 +100,7 @@ def keep(machine, run, t):
 def evaluated(evaluate, machine, run, t):
     """`scratch` := the rate of run.y. Returns a status."""
     record = record_at(machine)
-    status = evaluate_at(evaluate, machine, run, t, run.y, run.scratch)
+    status = of_run.evaluate_at(evaluate, machine, run, t, run.y, run.scratch)
     if status == OK and not finite(run.scratch):
         return NOT_FINITE
     if status == OK and contradicts(record.saddle, record.constraints, record.control.failure):
@@ -123,11 +112,11 @@ def evaluated(evaluate, machine, run, t):
 def reach(evaluate, correct, machine, run, target):
     """Go from the accepted position to that at the time `target`, in as many steps as it takes. Returns a status."""
     clock = run.clock
-    h, least = run.numbers[0], SHORTEST * (target - clock[TIME])
-    while clock[TIME] < target:
-        left = target - clock[TIME]
+    h, least = run.numbers[0], SHORTEST * (target - clock[of_run.TIME])
+    while clock[of_run.TIME] < target:
+        left = target - clock[of_run.TIME]
         whole = not 0.0 < h < left * (1.0 - 1e-9)
-        t = target if whole else clock[TIME] + h
+        t = target if whole else clock[of_run.TIME] + h
         h = left if whole else h
         predict(run, h)
         status = close(correct, machine, run, t)
@@ -140,7 +129,7 @@ def reach(evaluate, correct, machine, run, target):
             h = 2.0 * h
         else:
             h *= 0.5
-            run.counter[REJECTED] += 1
+            run.counter[of_run.REJECTED] += 1
             if h < least:
                 copy(run.previous, run.y)
                 return status
@@ -152,28 +141,28 @@ def reach(evaluate, correct, machine, run, target):
 def follow_positions(evaluate, correct, machine, history):
     """Positions at all times of frames, until the end, a full buffer, a spent budget or a failure; goes on where it stopped. Returns a
     status. Where it fails, `previous` at clock[ACCEPTED] is the last position that could be closed."""
-    run = run_at(history)
-    counter, budget = run.counter, run.counter[BUDGET]
-    if counter[EVALUATED] == 0:
-        t = run.clock[TIME]
+    run = of_run.run_at(history)
+    counter, budget = run.counter, run.counter[of_run.BUDGET]
+    if counter[of_run.EVALUATED] == 0:
+        t = run.clock[of_run.TIME]
         status = call_correct(correct, machine, t, run.y)
         if status == OK:
             status = evaluated(evaluate, machine, run, t)
         if status != OK:
             return status
         keep(machine, run, t)
-        counter[EVALUATED] = 1
+        counter[of_run.EVALUATED] = 1
     while True:
         if is_due(run):
-            if counter[FRAMES] == run.frames.shape[0]:
+            if counter[of_run.FRAMES] == run.frames.shape[0]:
                 return BUFFER_FULL
-            write_frame(machine, history, run.clock[TIME], run.y)
+            write_frame(machine, history, run.clock[of_run.TIME], run.y)
         if at_end(run):
             return DONE
         if budget == 0:
             return BUDGET_SPENT
         budget -= 1
-        status = reach(evaluate, correct, machine, run, time_of(run, counter[DONE_STEPS] + 1))
+        status = reach(evaluate, correct, machine, run, time_of(run, counter[of_run.DONE_STEPS] + 1))
         if status != OK:
             return status
-        counter[DONE_STEPS] += 1
+        counter[of_run.DONE_STEPS] += 1

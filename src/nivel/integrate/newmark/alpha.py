@@ -9,6 +9,7 @@ that meet there, each with accelerations of its own side; the steps between fram
 import numpy as np
 
 from nivel.integrate.facts import IntegratorFacts
+from nivel.integrate.loop import step_control
 from nivel.integrate.loop.corners import before, is_near, next_corner, pass_corner
 from nivel.integrate.loop.dense import cubic, wanted
 from nivel.integrate.loop.run import (
@@ -23,30 +24,8 @@ from nivel.integrate.loop.run import (
     evaluate_at,
     run_at,
 )
-from nivel.integrate.loop.step_control import (
-    EXACT,
-    MOST_CHANGE,
-    SAFETY,
-    bound_step,
-    enter_boldly,
-    exceeds_rotation_limit,
-    factor_after_rejection,
-    is_fresh,
-    reach,
-    reject,
-    too_small,
-)
+from nivel.integrate.newmark import alpha_step
 from nivel.integrate.newmark.alpha_start import go_on_beyond, start
-from nivel.integrate.newmark.alpha_step import (
-    RATE,
-    SHARE,
-    attempt,
-    filtered_error,
-    keep_step,
-    part_of,
-    plain_error,
-    refresh,
-)
 from nivel.integrate.newmark.correction_slopes import NUMBERS, ROWS
 from nivel.integrate.newmark.residual_newton import TOLERANCE as NEWTON_TOLERANCE
 from nivel.kernels.algebra.rows import copy
@@ -58,7 +37,7 @@ from nivel.native.function import leaf
 # A step grows only by so much at least; after an iteration that found nothing it is halved.
 WORTH, AFTER_FAILURE = 1.3, 0.5
 # Below the first share of the allowed error a step may grow as it is; a filtered error helps below the second share of the plain one.
-FREE, HELPS, MOST_PATIENCE = (SAFETY / WORTH) ** 2, 0.5, 1024.0
+FREE, HELPS, MOST_PATIENCE = (step_control.SAFETY / WORTH) ** 2, 0.5, 1024.0
 # A step held for so long is tried with LEAP, its square and its cube times its length, each time after twice as long.
 LEAST_HELD, LEAP, MOST_LEAPS = 16.0, 10.0, 30.0
 # entries of run.numbers: steps since errors were filtered, after how many they are again; steps of the same length, leaps tried
@@ -94,23 +73,23 @@ def fixed_step(evaluate, machine, history):
     """From clock[TIME] to clock[REACHED], in parts between the corners on the way. Returns a status."""
     run = run_at(history)
     t, target = run.clock[TIME], run.clock[REACHED]
-    copy(run.rate, run.stages[RATE])
+    copy(run.rate, run.stages[alpha_step.RATE])
     while True:
         corner = next_corner(machine, t, target)
         at_corner = corner < np.inf
         # a corner within the round-off of the end is the end: what would be left is no step
         end = corner if at_corner and not is_near(corner, target) else target
-        fresh = is_fresh(run)
+        fresh = step_control.is_fresh(run)
         if fresh:
             start(evaluate, machine, history, t, end - t)
         elif record_at(machine).newton.level[0] > 0:
-            refresh(machine, run)
+            alpha_step.refresh(machine, run)
         h = run.clock[STEP] if not at_corner and t == run.clock[TIME] else end - t
         end_side = before(end) if at_corner else end
-        status = attempt(machine, history, h, end_side, record_at(machine).newton.settings[NEWTON_TOLERANCE])
+        status = alpha_step.attempt(machine, history, h, end_side, record_at(machine).newton.settings[NEWTON_TOLERANCE])
         if status != OK:
             break
-        keep_step(machine, run, h, at_corner or t > run.clock[TIME])
+        alpha_step.keep_step(machine, run, h, at_corner or t > run.clock[TIME])
         t = end
         if at_corner:
             status = end_at_corner(evaluate, machine, history, t, fresh)
@@ -120,7 +99,7 @@ def fixed_step(evaluate, machine, history):
         status = evaluate_at(evaluate, machine, run, t, run.y, run.rate)
         if status != OK:
             break
-    copy(run.stages[RATE], run.rate)
+    copy(run.stages[alpha_step.RATE], run.rate)
     return status
 
 
@@ -128,11 +107,11 @@ def fixed_step(evaluate, machine, history):
 def choose_error(machine, history, end, h):
     """The error of the step just attempted, to time `end`, as a share of the allowed one: filtered where that is worth its matrix."""
     run = run_at(history)
-    c, plain = run.numbers, plain_error(machine, history, h)
+    c, plain = run.numbers, alpha_step.plain_error(machine, history, h)
     c[UNFILTERED] += 1.0
     if plain <= FREE or (plain <= 1.0 and c[UNFILTERED] < c[PATIENCE]):
         return plain
-    slow, vibrating = filtered_error(machine, history, end, h)
+    slow, vibrating = alpha_step.filtered_error(machine, history, end, h)
     error = min(plain, max(slow, vibrating))
     c[UNFILTERED] = 0.0
     c[PATIENCE] = 1.0 if error < HELPS * plain else min(2.0 * c[PATIENCE], MOST_PATIENCE)
@@ -147,8 +126,8 @@ def controlled_step(evaluate, machine, history):
     """
     run, record = run_at(history), record_at(machine)
     newton, c, clock = record.newton, run.numbers, run.clock
-    fresh = is_fresh(run)
-    enter_boldly(machine, history, 2.0, SHARE * clock[TOLERANCE])
+    fresh = step_control.is_fresh(run)
+    step_control.enter_boldly(machine, history, 2.0, alpha_step.SHARE * clock[TOLERANCE])
     if fresh:
         c[UNFILTERED], c[PATIENCE], c[HELD], c[LEAPS] = 0.0, 1.0, 0.0, 0.0
     # a step that has been held for long is tried with a multiple of it
@@ -156,17 +135,17 @@ def controlled_step(evaluate, machine, history):
     usual = clock[STEP]
     if leap:
         clock[STEP] *= LEAP ** (1.0 + c[LEAPS] % 3.0)
-        bound_step(machine, run)
+        step_control.bound_step(machine, run)
         c[HELD] = 0.0
         c[LEAPS] = min(c[LEAPS] + 1.0, MOST_LEAPS)
     if not fresh and newton.level[0] > 0:
         # once: after an attempt that failed the record has its multipliers, which may be no numbers
-        refresh(machine, run)
+        alpha_step.refresh(machine, run)
     status, error = OK, 0.0
     while True:
-        h = reach(run)
+        h = step_control.reach(run)
         if h == 0.0:
-            return too_small(run, status, error)
+            return step_control.too_small(run, status, error)
         t = clock[TIME]
         corner = next_corner(machine, t, clock[REACHED])
         if corner < np.inf:
@@ -176,18 +155,18 @@ def controlled_step(evaluate, machine, history):
         if fresh:
             start(evaluate, machine, history, t, h)
         end = before(clock[REACHED]) if corner < np.inf else clock[REACHED]
-        close = max(CLOSE * part_of(run, h), EXACT)
-        status = attempt(machine, history, h, end, min(newton.settings[NEWTON_TOLERANCE], close))
+        close = max(CLOSE * alpha_step.part_of(run, h), step_control.EXACT)
+        status = alpha_step.attempt(machine, history, h, end, min(newton.settings[NEWTON_TOLERANCE], close))
         factor = AFTER_FAILURE
         if status == OK:
             # what is done up to a corner right behind the start is no error: a load that jumps there acts from the start on
             error = 0.0 if fresh and corner < np.inf and h <= AT_ONCE else choose_error(machine, history, end, h)
-            factor = exceeds_rotation_limit(machine, h)
+            factor = step_control.exceeds_rotation_limit(machine, h)
             if error <= 1.0 and factor == 1.0:
                 break
             if error > 1.0:
-                factor = factor_after_rejection(OK, error, 2.0)
-        reject(run, h, factor)
+                factor = step_control.factor_after_rejection(OK, error, 2.0)
+        step_control.reject(run, h, factor)
         if fresh:
             # `start` takes the multipliers of the accepted state from the record
             evaluate_at(evaluate, machine, run, t, run.y, run.scratch)
@@ -196,13 +175,13 @@ def controlled_step(evaluate, machine, history):
         newton.kept[0] = 0.0
     if leap and h > usual:
         c[LEAPS] = 0.0
-    keep_step(machine, run, h, corner < np.inf)
-    growth = SAFETY * max(error, 1e-4) ** -0.5
+    alpha_step.keep_step(machine, run, h, corner < np.inf)
+    growth = step_control.SAFETY * max(error, 1e-4) ** -0.5
     c[HELD] += 1.0
     if corner < np.inf:
         status = end_at_corner(evaluate, machine, history, clock[REACHED], fresh)
     elif growth >= WORTH:
-        clock[STEP] = h * min(growth, MOST_CHANGE)
+        clock[STEP] = h * min(growth, step_control.MOST_CHANGE)
         c[HELD] = 0.0
     return status
 

@@ -10,6 +10,7 @@ The same vector bends the polynomial to order 4 inside the step, which frames, e
 import numpy as np
 
 from nivel.integrate.facts import IntegratorFacts
+from nivel.integrate.loop import step_control
 from nivel.integrate.loop.corners import before, next_corner, pass_corner
 from nivel.integrate.loop.dense import wanted
 from nivel.integrate.loop.run import (
@@ -26,20 +27,6 @@ from nivel.integrate.loop.run import (
     TOLERANCE,
     evaluate_at,
     run_at,
-)
-from nivel.integrate.loop.step_control import (
-    AFTER_FAILURE,
-    EXACT,
-    SAFETY,
-    enter_boldly,
-    exceeds_rotation_limit,
-    factor_after_rejection,
-    is_fresh,
-    larger,
-    reach,
-    reject,
-    size,
-    too_small,
 )
 from nivel.integrate.radau.coupled_stages import bring_back, factorise_stages, find_stage_parts, put_aside, solve_stages
 from nivel.integrate.radau.radau_constants import BEND, COLLOCATION, GAMMA, LEFT, LEFT_PAIR, MU, RIGHT, RIGHT_PAIR, A, C
@@ -327,7 +314,7 @@ def take_stage_changes(machine, history, h, positions):
     for i in range(run.y.shape[0]):
         change = 0.0
         for m in range(3):
-            change = larger(change, own.r[m, i], run.scale[i])
+            change = step_control.larger(change, own.r[m, i], run.scale[i])
             stages[Z + m, i] += own.r[m, i]
         if i >= run.y.shape[0] - 2:
             energies = max(energies, change)
@@ -446,14 +433,14 @@ def estimate(evaluate, machine, history, h, tolerance):
     run = run_at(history)
     write_polynomial(run)
     smooth(machine, history, h, run.rate)
-    error = size(run, run.stages[ERROR]) / tolerance
+    error = step_control.size(run, run.stages[ERROR]) / tolerance
     if not error <= 1.0 and error < np.inf:
         settling = 0.0 if run.numbers[REPEATED] == 1.0 or run.numbers[LAST_STEP] == 0.0 else SETTLING * error
         for i in range(run.y.shape[0]):
             run.trial[i] = run.y[i] + run.stages[ERROR, i]
         if evaluate_at(evaluate, machine, run, run.clock[TIME], run.trial, run.scratch) == OK:
             smooth(machine, history, h, run.scratch)
-            settled = size(run, run.stages[ERROR]) / tolerance
+            settled = step_control.size(run, run.stages[ERROR]) / tolerance
             error = settling if settled < settling else settled
     return error
 
@@ -479,9 +466,9 @@ def accept(run, h):
 def next_step(run, h, error, last):
     """The step after a step h of this error, before it one of length `last`: it follows the trend of the error (Gustafsson 1994)."""
     numbers, error = run.numbers, max(error, 1e-10)
-    factor = SAFETY * error ** (-1.0 / ORDER)
+    factor = step_control.SAFETY * error ** (-1.0 / ORDER)
     if last > 0.0:
-        factor = min(factor, SAFETY * h / last * (numbers[LAST_ERROR] / (error * error)) ** (1.0 / ORDER))
+        factor = min(factor, step_control.SAFETY * h / last * (numbers[LAST_ERROR] / (error * error)) ** (1.0 / ORDER))
     factor = max(LEAST_CHANGE, min(1.0 if numbers[REPEATED] == 1.0 else MOST_CHANGE, factor))
     numbers[LAST_ERROR] = max(error, 1e-2)
     if numbers[CONTRACTION] > GOOD or numbers[COUPLED] > 0.0:
@@ -496,7 +483,7 @@ def attempt(evaluate, machine, history, h, end, tolerance):
     """A status, the error of a step h to the time `end` as a share of the allowed one, and how much shorter the step has to be for no body
     to turn too far. Its stages are in Z."""
     run = run_at(history)
-    close = max(CLOSE * run.clock[TOLERANCE], EXACT)
+    close = max(CLOSE * run.clock[TOLERANCE], step_control.EXACT)
     status = make_factors(machine, history, h)
     if status != OK:
         return status, 0.0, 1.0
@@ -507,7 +494,7 @@ def attempt(evaluate, machine, history, h, end, tolerance):
         status = iterate_coupled(evaluate, machine, history, h, end, close)
     if status != OK:
         return status, 0.0, 1.0
-    shorter = exceeds_rotation_limit(machine, h)
+    shorter = step_control.exceeds_rotation_limit(machine, h)
     return OK, estimate(evaluate, machine, history, h, tolerance), shorter
 
 
@@ -515,18 +502,18 @@ def attempt(evaluate, machine, history, h, end, tolerance):
 def radau(evaluate, machine, history):
     """One accepted step."""
     run = run_at(history)
-    numbers, tolerance = run.numbers, max(SHARE * run.clock[TOLERANCE] ** 0.8, EXACT)
+    numbers, tolerance = run.numbers, max(SHARE * run.clock[TOLERANCE] ** 0.8, step_control.EXACT)
     keep_multipliers(machine)
-    enter_boldly(machine, history, ORDER - 1.0, tolerance)
-    if is_fresh(run):
+    step_control.enter_boldly(machine, history, ORDER - 1.0, tolerance)
+    if step_control.is_fresh(run):
         forget(run)
     numbers[REPEATED] = 0.0
     run.clock[STEP] = min(run.clock[STEP], numbers[LONGEST])
     status, error = OK, 0.0
     while True:
-        h = reach(run)
+        h = step_control.reach(run)
         if h == 0.0:
-            return too_small(run, status, error)
+            return step_control.too_small(run, status, error)
         corner, end, wish = next_corner(machine, run.clock[TIME], run.clock[REACHED]), run.clock[REACHED], h
         if corner < np.inf:
             # just beyond it, where functions are what follows, even those that are no number at the corner
@@ -545,12 +532,14 @@ def radau(evaluate, machine, history):
                 numbers[COUPLED] = numbers[PATIENCE]
                 continue
             numbers[FOUND] = 0.0
-            reject(run, h, HALF if status == NOT_CONVERGED else AFTER_FAILURE)
+            step_control.reject(run, h, HALF if status == NOT_CONVERGED else step_control.AFTER_FAILURE)
             numbers[LONGEST] = run.clock[STEP]
         elif error <= 1.0 and shorter == 1.0:
             break
         else:
-            reject(run, h, min(shorter, factor_after_rejection(OK, error, ORDER) if not error <= 1.0 else 1.0))
+            step_control.reject(
+                run, h, min(shorter, step_control.factor_after_rejection(OK, error, ORDER) if not error <= 1.0 else 1.0)
+            )
         numbers[REPEATED] = 1.0
     last = numbers[LAST_STEP]
     accept(run, h)

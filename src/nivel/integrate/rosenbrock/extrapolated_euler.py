@@ -42,16 +42,7 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import NONE, record_at
 from nivel.kernels.residual.shifted_matrix import factorise_shifted, find_parts, keep_multipliers, solve_shifted_parts
-from nivel.motion.circuit_shift import (
-    advance_circuit,
-    apply_compliance,
-    factorise_circuit,
-    project,
-    project_flexible,
-    respond,
-    respond_flexible,
-    soften,
-)
+from nivel.motion import circuit_shift
 from nivel.motion.modal_shift import factorise_shifted_modes, solve_shifted_modes
 from nivel.native.entry import entry
 from nivel.native.function import leaf, part, shared, stage
@@ -264,8 +255,8 @@ def difference_in_step(evaluate, machine, run):
 def renew_slopes(machine, t, s):
     """Factors of the halves with the slopes of the state last evaluated; the mechanics respond as at the begin. Returns a status."""
     find_slopes(machine, t)
-    soften(record_at(machine).circuit.tangent)
-    return factorise_circuit(machine, OF_HALVES, s)
+    circuit_shift.soften(record_at(machine).circuit.tangent)
+    return circuit_shift.factorise_circuit(machine, OF_HALVES, s)
 
 
 @shared
@@ -282,13 +273,13 @@ def fill_both(evaluate, machine, run, t, h, prepare, renew, leave):
     if status == OK:
         status = leave(machine, y, run.rate, h, other)
     if status == OK:
-        advance_circuit(machine, OF_WHOLE, h, run.rate, other, y, run.stages[WHOLE])
+        circuit_shift.advance_circuit(machine, OF_WHOLE, h, run.rate, other, y, run.stages[WHOLE])
         status = prepare(machine, OF_HALVES, 0.5 * h)
     if status == OK:
         status = leave(machine, y, run.rate, 0.5 * h, other)
     if status != OK:
         return status, NO_STATE
-    advance_circuit(machine, OF_HALVES, 0.5 * h, run.rate, other, y, middle)
+    circuit_shift.advance_circuit(machine, OF_HALVES, 0.5 * h, run.rate, other, y, middle)
     if not is_state(machine, middle) or call_evaluate(evaluate, machine, t + 0.5 * h, middle, run.stages[RATE]) != OK:
         return OK, NO_STATE
     outcome = EXTRAPOLATED
@@ -302,7 +293,7 @@ def fill_both(evaluate, machine, run, t, h, prepare, renew, leave):
         status = leave(machine, middle, run.stages[RATE], 0.5 * h, other)
     if status != OK:
         return status, NO_STATE
-    advance_circuit(machine, OF_HALVES, 0.5 * h, run.stages[RATE], other, middle, run.stages[HALVES])
+    circuit_shift.advance_circuit(machine, OF_HALVES, 0.5 * h, run.stages[RATE], other, middle, run.stages[HALVES])
     return OK, outcome if is_state(machine, run.stages[HALVES]) else NO_STATE
 
 
@@ -332,11 +323,11 @@ def attempt_over_circuits(evaluate, machine, history, prepare, renew, leave):
 def prepare_rigid(machine, number, s):
     """Factors `number` for s. Returns a status."""
     if number == OF_WHOLE:
-        status = apply_compliance(machine, project, respond)
+        status = circuit_shift.apply_compliance(machine, circuit_shift.project, circuit_shift.respond)
         if status != OK:
             return status
-        soften(record_at(machine).circuit.tangent)
-    return factorise_circuit(machine, number, s)
+        circuit_shift.soften(record_at(machine).circuit.tangent)
+    return circuit_shift.factorise_circuit(machine, number, s)
 
 
 @stage
@@ -375,11 +366,11 @@ def prepare_flexible(machine, number, s):
     """Factors `number` for s, and those of the tree. Returns a status."""
     status = factorise_shifted_modes(machine, s)
     if status == OK:
-        status = apply_compliance(machine, project_flexible, respond_flexible)
+        status = circuit_shift.apply_compliance(machine, circuit_shift.project_flexible, circuit_shift.respond_flexible)
     if status != OK:
         return status
-    soften(record_at(machine).circuit.tangent)
-    return factorise_circuit(machine, number, s)
+    circuit_shift.soften(record_at(machine).circuit.tangent)
+    return circuit_shift.factorise_circuit(machine, number, s)
 
 
 @stage

@@ -19,20 +19,9 @@ of the step or the order they jump by as much as h^q, whatever the next step is,
 import numpy as np
 
 from nivel.integrate.facts import IntegratorFacts
+from nivel.integrate.loop import step_control
 from nivel.integrate.loop.dense import wanted
 from nivel.integrate.loop.run import DONE_STEPS, NEWTON, ORDER, RESTART, STEP, STEP_SIGNATURE, run_at
-from nivel.integrate.loop.step_control import (
-    AFTER_FAILURE,
-    LEAST_CHANGE,
-    allowed,
-    enter,
-    exceeds_rotation_limit,
-    is_fresh,
-    reach,
-    reject,
-    size,
-    too_small,
-)
 from nivel.integrate.variable_order.multistep_polynomials import ADAMS, BDF, correction, monic
 from nivel.integrate.variable_order.variable_corrector import (
     CHANGE,
@@ -95,11 +84,11 @@ def start(run):
 def measure_contraction(run):
     """What one more evaluation in the last step would have changed, as a share of what the first one changed: the loop evaluates at the
     accepted state anyway."""
-    change, first = run.stages[CHANGE], size(run, run.stages[CORRECTION])
+    change, first = run.stages[CHANGE], step_control.size(run, run.stages[CORRECTION])
     for i in range(run.y.shape[0]):
         change[i] = (run.numbers[SCALED] * run.rate[i] - run.stages[SLOPE, i]) / run.numbers[C + 1]
     if first > 0.0:
-        run.numbers[CONTRACTION] = max(FORGET * run.numbers[CONTRACTION], size(run, change) / first)
+        run.numbers[CONTRACTION] = max(FORGET * run.numbers[CONTRACTION], step_control.size(run, change) / first)
 
 
 @leaf
@@ -192,8 +181,8 @@ def multistep(family, most, correct, damp):
         """One accepted step that may be wrong by `tolerance`. Returns a status."""
         run = run_at(history)
         numbers = run.numbers
-        enter(evaluate, machine, history, 1.0, tolerance)
-        if is_fresh(run):
+        step_control.enter(evaluate, machine, history, 1.0, tolerance)
+        if step_control.is_fresh(run):
             start(run)
             run.counter[RESTART] = 0
         elif run.counter[NEWTON] == 0:
@@ -201,9 +190,9 @@ def multistep(family, most, correct, damp):
         renew(run, family)
         status, error, rejections = OK, 0.0, 0
         while True:
-            h = reach(run)
+            h = step_control.reach(run)
             if h == 0.0:
-                return too_small(run, status, error)
+                return step_control.too_small(run, status, error)
             q = run.counter[ORDER]
             place_points(run, h)
             c = numbers[C : C + MOST_ORDER + 1]
@@ -213,13 +202,15 @@ def multistep(family, most, correct, damp):
             if status == OK:
                 status = damp(machine, history, run.stages[CORRECTION], run.stages[ESTIMATE])
             if status != OK:
-                reject(run, h, AFTER_FAILURE)
+                step_control.reject(run, h, step_control.AFTER_FAILURE)
             else:
-                error = factors[2] / factors[0] * size(run, run.stages[ESTIMATE]) / tolerance
-                shorter = exceeds_rotation_limit(machine, h)
+                error = factors[2] / factors[0] * step_control.size(run, run.stages[ESTIMATE]) / tolerance
+                shorter = step_control.exceeds_rotation_limit(machine, h)
                 if error <= 1.0 and shorter == 1.0:
                     break
-                reject(run, h, min(shorter, max(LEAST_CHANGE, longer(error, q, SAME))) if error > 1.0 else shorter)
+                if error > 1.0:
+                    shorter = min(shorter, max(step_control.LEAST_CHANGE, longer(error, q, SAME)))
+                step_control.reject(run, h, shorter)
             rejections += 1
             if rejections % MOST_REJECTIONS == 0:
                 start(run)
@@ -238,7 +229,7 @@ def multistep(family, most, correct, damp):
         lower = 0.0
         if numbers[WAIT] <= 1.0:
             status = damp(machine, history, run.stages[Z + q], run.stages[CHANGE])
-            lower = size(run, run.stages[CHANGE])
+            lower = step_control.size(run, run.stages[CHANGE])
         growth = choose(run, family, most, h, tolerance, error, lower, factors)
         run.clock[STEP] = h * min(growth, 1.0 if rejections > 0 else (FIRST_GROWTH if first else MOST_GROWTH))
         return status
@@ -258,7 +249,7 @@ variable_step = multistep(ADAMS, MOST_ADAMS_ORDER, *corrector(find_matrix, solve
 @entry(STEP_SIGNATURE)
 def adams(evaluate, machine, history):
     """One accepted step."""
-    return variable_step(evaluate, machine, history, allowed(run_at(history), ADAMS_SHARE))
+    return variable_step(evaluate, machine, history, step_control.allowed(run_at(history), ADAMS_SHARE))
 
 
 # BDF (Gear's methods) of orders 1 to 5, of variable step.
@@ -277,7 +268,7 @@ gear_step = multistep(BDF, MOST_BDF_ORDER, *corrector(find_matrix, solve_matrix)
 def of_step(history):
     """What the next step may be wrong by, as a share of the scales."""
     run = run_at(history)
-    return allowed(run, min(BDF_SHARE, BDF_TOTAL / (1.0 + run.counter[DONE_STEPS])))
+    return step_control.allowed(run, min(BDF_SHARE, BDF_TOTAL / (1.0 + run.counter[DONE_STEPS])))
 
 
 @entry(STEP_SIGNATURE)

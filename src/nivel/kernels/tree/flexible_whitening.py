@@ -7,14 +7,7 @@ from nivel.kernels.algebra.spatial import cross, dot, multiply
 from nivel.kernels.bodies.floating_dynamics import velocity_forces
 from nivel.kernels.bodies.floating_frame import modes_of
 from nivel.kernels.record.record import MODAL, OUTWARD, record_at
-from nivel.kernels.tree.articulated import (
-    accelerate_column,
-    applied,
-    carry_motion,
-    hand_wrench,
-    transmit,
-    whiten_bundles,
-)
+from nivel.kernels.tree import articulated
 from nivel.native.function import leaf, stage
 
 
@@ -82,7 +75,7 @@ def whiten_flexible_efforts(machine, y):
     ground = bodies.mass.shape[0]
     for b in range(ground):
         if own.rigid[b] == 1:
-            applied(bodies, tree, b, tree.wrench[b])
+            articulated.applied(bodies, tree, b, tree.wrench[b])
     for v in range(ground + 1, tree.wrench.shape[0]):
         F, out = bodies.wrench[v], tree.wrench[v]
         out[0], out[1], out[2], out[3], out[4], out[5] = F[3], F[4], F[5], F[0], F[1], F[2]
@@ -117,9 +110,9 @@ def hand_efforts_inwards(machine):
         else:
             for c in range(last - low):
                 k = last - 1 - c
-                z[k, 0] = transmit(tree, k, wrench)
+                z[k, 0] = articulated.transmit(tree, k, wrench)
         if parent != ground:
-            hand_wrench(wrench, tree.arm[child], tree.wrench[parent])
+            articulated.hand_wrench(wrench, tree.arm[child], tree.wrench[parent])
 
 
 @stage
@@ -153,9 +146,9 @@ def whiten_flexible_bundle(machine, first, last):
                     effort[j] = 0.0
             else:
                 for c in range(columns):
-                    W[block + i * length + c, 0] = transmit(tree, low + columns - 1 - c, x)
+                    W[block + i * length + c, 0] = articulated.transmit(tree, low + columns - 1 - c, x)
             if parent != ground:
-                hand_wrench(x, tree.arm[child], tree.load[i, parent])
+                articulated.hand_wrench(x, tree.arm[child], tree.load[i, parent])
             x[0], x[1], x[2], x[3], x[4], x[5] = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
 
 
@@ -165,7 +158,7 @@ def whiten_flexible_tree_rows(machine):
 
     `modal.load` is zero before and after.
     """
-    whiten_bundles(machine, whiten_flexible_bundle)
+    articulated.whiten_bundles(machine, whiten_flexible_bundle)
 
 
 @stage
@@ -178,7 +171,7 @@ def accelerate_flexible(machine, change):
         node = tree.node[n]
         child, parent, kind, low = node[0], node[1], node[2], np.int64(node[4])
         a = tree.delta[child]
-        carry_motion(tree.delta[parent], tree.arm[child], a)
+        articulated.carry_motion(tree.delta[parent], tree.arm[child], a)
         if kind == OUTWARD:
             k = modal.link[n]
             first, size = modes_of(own, own.frame[k, 0])
@@ -207,4 +200,4 @@ def accelerate_flexible(machine, change):
                         a[i] += motion[i, j] * own.pddot[first + j]
         else:
             for k in range(low, np.int64(node[5])):
-                accelerate_column(tree, z, k, a, change)
+                articulated.accelerate_column(tree, z, k, a, change)

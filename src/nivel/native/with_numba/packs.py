@@ -24,17 +24,7 @@ from numba.extending import lower_getattr, register_model
 
 from nivel.native.packs import KEY
 from nivel.native.processor import lane_count
-from nivel.native.with_numba.duals import (
-    HAVE_WHOLE_PARTS,
-    MOST,
-    OF_ONE,
-    OF_TWO,
-    SYMBOLS,
-    Vector,
-    VectorModel,
-    define,
-    spread,
-)
+from nivel.native.with_numba import duals
 
 LANES = lane_count()
 _infer_global: Any = templates.infer_global  # its stubs do not know what it returns
@@ -43,7 +33,7 @@ _BIT, _I32, _WORD, _DOUBLE = ir.IntType(1), ir.IntType(32), ir.IntType(64), ir.D
 _NUMBERS, _TRUTHS, _WHOLES = (ir.VectorType(each, LANES) for each in (_DOUBLE, _BIT, _WORD))
 
 
-class Pack(Vector):
+class Pack(duals.Vector):
     """A number in each lane."""
 
     def __init__(self) -> None:
@@ -72,7 +62,7 @@ class Truths(types.Type):
 PACK, TRUTHS = Pack(), Truths()
 
 
-register_model(Pack)(VectorModel)
+register_model(Pack)(duals.VectorModel)
 
 
 @register_model(Truths)
@@ -184,7 +174,7 @@ def one_whole(b: Any, x: Any) -> Any:
 
 
 def _to_pack(context: Any, b: Any, given: Any, wanted: Any, value: Any) -> Any:
-    return value if given == PACK else spread(b, context.cast(b, value, given, _F), PACK)
+    return value if given == PACK else duals.spread(b, context.cast(b, value, given, _F), PACK)
 
 
 def _to_one(context: Any, b: Any, given: Any, wanted: Any, value: Any) -> Any:
@@ -209,7 +199,7 @@ def _function(function: Any, counts: Iterable[int], emit: Emit, result: Any = No
     def of_packs(context: Any, b: Any, args: Any, kinds: Any, kind: Any) -> Any:
         return emit(context, b, *(_to_pack(context, b, given, kind, x) for given, x in zip(kinds, args, strict=True)))
 
-    define(Pack, function, counts, of_packs, TRUTHS if result == types.boolean else result)
+    duals.define(Pack, function, counts, of_packs, TRUTHS if result == types.boolean else result)
 
 
 def _lane_by_lane(function: Any, result: Any) -> Emit:
@@ -253,7 +243,7 @@ _OWN: dict[Any, Emit] = {
     **dict.fromkeys((np.sqrt, math.sqrt), _vector("sqrt")),
     **dict.fromkeys((np.abs, abs, math.fabs), _vector("fabs")),
     np.floor: _vector("floor"),
-    **{getattr(operator, name): _compared(symbol) for name, symbol in SYMBOLS.items()},
+    **{getattr(operator, name): _compared(symbol) for name, symbol in duals.SYMBOLS.items()},
     operator.neg: _plain("fneg"),
     **dict.fromkeys((operator.pos, float, np.real), lambda context, b, x: x),
     np.imag: lambda context, b, x: ir.Constant(_NUMBERS, [0.0] * LANES),
@@ -264,12 +254,12 @@ _OWN: dict[Any, Emit] = {
     math.floor: lambda context, b, x: one_whole(b, _intrinsic(b, "floor", x)),
     math.ceil: lambda context, b, x: one_whole(b, _intrinsic(b, "ceil", x)),
 }
-for _count, _table in ((1, OF_ONE), (2, OF_TWO)):
+for _count, _table in ((1, duals.OF_ONE), (2, duals.OF_TWO)):
     for _each, _result in _table.items():
         _result = None if _result == _F else _result
         _function(_each, [_count], _OWN.get(_each) or _lane_by_lane(_each, _result), _result)
-_function(max, range(2, MOST + 1), _of_many(">"))
-_function(min, range(2, MOST + 1), _of_many("<"))
+_function(max, range(2, duals.MOST + 1), _of_many(">"))
+_function(min, range(2, duals.MOST + 1), _of_many("<"))
 
 
 def _of_truths(function: Any, emit: Callable[[Any, Any], Any], result: Any) -> None:
@@ -286,7 +276,7 @@ _of_truths(operator.not_, lambda b, x: b.not_(x), TRUTHS)
 _of_truths(int, lambda b, x: b.zext(one_truth(b, x), _WORD), types.int64)
 
 
-HAVE_WHOLE_PARTS.extend((Pack, Truths))
+duals.HAVE_WHOLE_PARTS.extend((Pack, Truths))
 
 
 lower_builtin(types.NumberClass, Pack)(lambda context, b, sig, args: one_whole(b, args[0]))

@@ -9,7 +9,6 @@ only how accelerations of bodies come from v̇, and generalised forces from wren
 """
 
 from nivel.kernels.algebra.spatial import cross, dot
-from nivel.kernels.algebra.vectors import minus, plus, plus_cross, put, seen, times, turned
 from nivel.kernels.bodies.floating_dynamics import GATHER
 from nivel.kernels.bodies.rigid import load_weight
 from nivel.kernels.bodies.shared_mass import add_shared_inertia
@@ -81,9 +80,20 @@ def inertial_wrenches(machine):
         turning, wc, ww, lever = cross(alpha, c), dot(w, c), dot(w, w), cross(c, a)
         for i in range(3):
             out[3 + i] = m * (a[i] + turning[i] + w[i] * wc - c[i] * ww) - F[i]
-        w_b = seen(A, w)
-        moment_b = plus_cross(turned(J, seen(A, x)), w_b, turned(J, w_b))
-        put(out, 0, minus(plus(turned(A, moment_b), times(m, lever)), (F[3], F[4], F[5])))
+        w0 = A[0, 0] * w[0] + A[1, 0] * w[1] + A[2, 0] * w[2]
+        w1 = A[0, 1] * w[0] + A[1, 1] * w[1] + A[2, 1] * w[2]
+        w2 = A[0, 2] * w[0] + A[1, 2] * w[1] + A[2, 2] * w[2]
+        a0 = A[0, 0] * x[0] + A[1, 0] * x[1] + A[2, 0] * x[2]
+        a1 = A[0, 1] * x[0] + A[1, 1] * x[1] + A[2, 1] * x[2]
+        a2 = A[0, 2] * x[0] + A[1, 2] * x[1] + A[2, 2] * x[2]
+        h0 = J[0, 0] * w0 + J[0, 1] * w1 + J[0, 2] * w2
+        h1 = J[1, 0] * w0 + J[1, 1] * w1 + J[1, 2] * w2
+        h2 = J[2, 0] * w0 + J[2, 1] * w1 + J[2, 2] * w2
+        n0 = J[0, 0] * a0 + J[0, 1] * a1 + J[0, 2] * a2 + w1 * h2 - w2 * h1
+        n1 = J[1, 0] * a0 + J[1, 1] * a1 + J[1, 2] * a2 + w2 * h0 - w0 * h2
+        n2 = J[2, 0] * a0 + J[2, 1] * a1 + J[2, 2] * a2 + w0 * h1 - w1 * h0
+        for i in range(3):
+            out[i] = A[i, 0] * n0 + A[i, 1] * n1 + A[i, 2] * n2 + m * lever[i] - F[3 + i]
     add_shared_inertia(machine)
 
 
@@ -134,6 +144,6 @@ def write_rows(machine, first):
     for p in range(residual.part.shape[0]):
         J, u = constraints.J[residual.part[p, 1]], markers.u[residual.part[p, 2]]
         x = residual.acceleration[residual.part[p, 3]]
-        turning = cross(x, u)
+        turning = x[1] * u[2] - x[2] * u[1], x[2] * u[0] - x[0] * u[2], x[0] * u[1] - x[1] * u[0]
         along = J[0] * (x[3] + turning[0]) + J[1] * (x[4] + turning[1]) + J[2] * (x[5] + turning[2])
         value[at + residual.part[p, 0]] += along + J[3] * x[0] + J[4] * x[1] + J[5] * x[2]

@@ -17,8 +17,6 @@ A kernel that does the same with every row is the law of one of them:
     def stretch(machine, index, n, t): ...
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import update_wrapper
 from inspect import get_annotations, signature

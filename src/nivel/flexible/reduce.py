@@ -1,7 +1,5 @@
 """From a model file to a reduced body: read, tie, check, reduce, compute what the moving body needs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Final

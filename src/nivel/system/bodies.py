@@ -1,7 +1,5 @@
 """The bodies of a machine as numbers: their masses, poses and velocities as given, and the size of the machine that they make."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.errors import Fault, ModelError

@@ -1,7 +1,5 @@
 """From words to numbers: a machine record becomes the arrays of the kernels."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import islice

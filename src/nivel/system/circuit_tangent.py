@@ -1,7 +1,5 @@
 """Tables of the derivatives of circuits by hand: which states and coordinates they have, and in which order these are eliminated."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import combinations

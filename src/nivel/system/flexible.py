@@ -1,7 +1,5 @@
 """Flexible bodies in numbers: the tables of the kernels from reduced bodies."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Arrays of implicit methods: which rows and unknowns the residual of a machine has, and which derivatives its matrix needs."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -4,8 +4,6 @@ The direction is that of the first joint in the file that has it. The markers of
 rotation, before anything is computed: all coordinates and formulations see the same axes.
 """
 
-from __future__ import annotations
-
 from difflib import get_close_matches
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Layout of an output frame: place and name of each number; `nivel.kernels.output.observe` fills it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import prod
 

@@ -1,7 +1,5 @@
 """Pattern and work arrays of the saddle-point system, with the rows of frictions behind those of constraints."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """The outline of a beam's section in its own y and z axes, to draw it by."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Tables that fill while a machine is built, each with the arrays that it becomes."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import reduce
 from itertools import pairwise

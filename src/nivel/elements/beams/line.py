@@ -1,7 +1,5 @@
 """Lines of beams: straight, an arc of a circle, or a smooth curve through points; and the axes of the sections along them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from itertools import pairwise
 from typing import Any

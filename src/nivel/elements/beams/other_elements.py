@@ -1,7 +1,5 @@
 """A beam with elements of other lengths: twice as many, or half as many, with the same stations, and nodes that keep their names."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from functools import cached_property
 

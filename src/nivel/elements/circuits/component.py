@@ -1,7 +1,5 @@
 """Base of all components of a hydraulic circuit: a name, and ports that are connected to nodes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final
 

@@ -8,8 +8,6 @@ K lies on its curves at their differences of pressure and on a straight line bet
 curve is that of a sharp edge, whose flow grows with √Δp.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise

@@ -10,8 +10,6 @@ Thermal expansion at a temperature is γ ρ₁₅/ρ.
 The numbers of each grade are those of usual data sheets: HLP and HVLP of DIN 51524, HEES of ISO 15380, HFC of ISO 12922.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import log10
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal

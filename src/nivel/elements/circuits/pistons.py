@@ -4,8 +4,6 @@ A chamber has the volume V(s) = V₀ + A s + Σ ΔA_k R(s - s_k) over the stroke
 The force (p - pa) dV/ds does exactly the work that its fluid loses; pa acts on the rod.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Annotated
 

@@ -1,8 +1,6 @@
 """Usual ranges of quantities of circuits, from small laboratory devices to the largest machines that are built, and the quantities that
 many components have, each with its own."""
 
-from __future__ import annotations
-
 from typing import Annotated, Final
 
 from nivel.machine.core import coefficient

@@ -10,8 +10,6 @@ that drives the shaft forward. Its first part is that of catalogues (ISO 4409); 
 vibration, since ρ_in is greater on the way from the higher pressure than on the way back.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Annotated, ClassVar
 

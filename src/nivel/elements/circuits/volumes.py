@@ -14,8 +14,6 @@ oil out of the dead volume V_d and then rests on its inlet; R is a ramp of the w
 Nitrogen follows an adiabat of its own equation there. Outside of runs, masses follow from pressures.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Records of contacts: of a body with a plane, of two bodies, and of many spheres."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Final, Literal
 

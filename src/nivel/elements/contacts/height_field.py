@@ -1,7 +1,5 @@
 """Heights of ground that is not flat, on a grid over a plane: the record, and its triangles."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import lru_cache
 from random import Random

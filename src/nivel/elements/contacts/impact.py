@@ -6,8 +6,6 @@ a number of the element; v is remembered from the first accepted state in contac
 itself, given as damping.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

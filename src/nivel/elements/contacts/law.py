@@ -10,8 +10,6 @@ The surface of a body may move over it, as a belt or a turntable: its velocity i
 marker's point, are functions.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import update_wrapper
 from typing import Any

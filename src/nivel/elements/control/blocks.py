@@ -1,7 +1,5 @@
 """Blocks of signals: algebra, limits, tables, switches."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Controllers: PID, with filter, feed-forward and anti-windup, and cascades of loops."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Literal

@@ -1,7 +1,5 @@
 """Linear blocks with memory: transfer function, state space, integrator, and the filters that are made of them."""
 
-from __future__ import annotations
-
 import math
 from abc import abstractmethod
 from collections.abc import Iterator, Sequence

@@ -1,7 +1,5 @@
 """Blocks that remember: delays, averages, rates, hysteresis, values that are held."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import replace

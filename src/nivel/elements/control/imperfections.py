@@ -1,7 +1,5 @@
 """Imperfections of measuring and of sending: noise, quantisation, a bus with a cycle, jitter and lost messages."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from random import Random

@@ -1,7 +1,5 @@
 """Set-points that go from place to place: with a limited speed and acceleration, or smooth by times."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from itertools import pairwise

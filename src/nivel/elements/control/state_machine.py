@@ -1,7 +1,5 @@
 """State machines: at each sample the guards of the present state are looked at, and the first that holds leads on."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Annotated, Any, Literal
 

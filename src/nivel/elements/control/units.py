@@ -1,7 +1,5 @@
 """Blocks that are computed by others: FMUs, functions in C and in Python."""
 
-from __future__ import annotations
-
 import re
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping, Sequence

@@ -6,8 +6,6 @@ curvature 2 e/l² for an aim at the distance l, e to the left (Wallace et al. 19
 with what the vehicle is ahead of it, a.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Annotated, Literal
 

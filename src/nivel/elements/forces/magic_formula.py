@@ -9,8 +9,6 @@ Pacejka 2010, A58 and A60). Left out: turn slip (a patch that turns has the bore
 Scaling factors and pressure do not change within a run: they are put into the coefficients, and so is what differs between versions.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal
 

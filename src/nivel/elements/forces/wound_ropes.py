@@ -24,8 +24,6 @@ wheel, until all hold).
 Every wheel between the ends is touched all the time, and drums never unwind: the rope lies in grooves and is fixed with turns left.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

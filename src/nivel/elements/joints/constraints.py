@@ -1,7 +1,5 @@
 """Joints that are constraints in all coordinates."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection
 from typing import Any, Final
 

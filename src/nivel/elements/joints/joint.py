@@ -3,8 +3,6 @@
 What a joint of each type is placed by, and its coordinates, are facts of its kind.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Inertia invariants of a finite-element model and the next modes of a finer basis, from its mass. They need SciPy; reading does not."""
 
-from __future__ import annotations
-
 import numpy as np
 import scipy.linalg as la
 

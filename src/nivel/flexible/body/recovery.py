@@ -4,8 +4,6 @@ stress(t) = Σ modal stress_j q_j(t), at the stations of `body.stress`: nodes of
 Histories q are (t, n) in the order of the modes; results have the time first.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import pairwise
 from typing import Final

@@ -1,7 +1,5 @@
 """Flexible bodies for ParaView: a .pvd file that lists one .vtu file for each mode or moment."""
 
-from __future__ import annotations
-
 import base64
 import struct
 from collections.abc import Iterable, Iterator, Mapping

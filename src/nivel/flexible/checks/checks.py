@@ -1,7 +1,5 @@
 """Faults of a finite-element model, found before it is solved, and said with what to do."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -7,8 +7,6 @@ of that, so it is doubled. Frames by elements of half the length: the deflection
 at nodes make is exact, so there the error is that of inertia between the nodes alone.
 """
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 import numpy as np

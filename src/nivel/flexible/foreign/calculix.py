@@ -1,7 +1,5 @@
 """Rows that CalculiX makes itself: rotations of rigid groups, incompatible modes of C3D8I, and solids in place of beams."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from typing import Final

@@ -5,8 +5,6 @@ Sources: Dhondt, CalculiX CrunchiX User's Manual 2.20, keywords *ELASTIC, *ORIEN
 Elasticity, chapter 2.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Final, NamedTuple
 

@@ -1,7 +1,5 @@
 """A matrix as another program wrote it: numbers, and which node and direction every row is, if the file says so."""
 
-from __future__ import annotations
-
 import csv
 import math
 from collections.abc import Iterator, Sequence

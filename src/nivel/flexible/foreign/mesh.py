@@ -1,7 +1,5 @@
 """A mesh of another program: nodes, elements, sets, sections and materials, as its file has them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Final, NamedTuple
 

@@ -7,8 +7,6 @@ A matrix is a header record, one record for each column that is not empty, and a
 sparse records the values come in strings, each with its length and first row packed in one word, or in two (BIGMAT).
 """
 
-from __future__ import annotations
-
 import re
 import struct
 from collections.abc import Iterator

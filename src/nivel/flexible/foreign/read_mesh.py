@@ -1,7 +1,5 @@
 """Reading of meshes of other programs: input files of CalculiX and Abaqus, bulk data of Nastran, tables of nodes."""
 
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 from typing import Final

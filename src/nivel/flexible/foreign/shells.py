@@ -6,8 +6,6 @@ solid that may stretch: a knot, u = u_N + θ × r + e r, with r from the shared 
 Source: Dhondt, CalculiX CrunchiX User's Manual 2.20, sections 6.2.14 (shells) and 6.2.33 (knots).
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from functools import cache

@@ -1,7 +1,5 @@
 """Finite-element models of other programs, from their matrices and nodes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path

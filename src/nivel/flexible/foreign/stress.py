@@ -1,7 +1,5 @@
 """Stress of a deck: its solids with the elasticity of their sections, held against the energy of the stiffness matrix."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Final

@@ -5,8 +5,6 @@ equations (Friedman & Kosmatka 1993, Comput. Struct. 47): exact end stiffness, n
 are Hermite's. θy = -w', θz = v' then.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.beams.sections import Material, Section

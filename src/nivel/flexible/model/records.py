@@ -1,7 +1,5 @@
 """A finite-element model and its reduction in words: what a model file says."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Annotated, Any, Final, Literal
 

@@ -1,7 +1,5 @@
 """Nodes of interfaces: by name or number, or on a surface."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from difflib import get_close_matches
 from typing import Final

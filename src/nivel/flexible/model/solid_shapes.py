@@ -5,8 +5,6 @@ that of tetrahedra is VTK's too. Strain is evaluated where CalculiX integrates, 
 at all 27 points of integration.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 from itertools import product
 from typing import Final

@@ -1,7 +1,5 @@
 """Solids as model files say them: parts added and cut, or a STEP file; meshed by gmsh, assembled with scikit-fem."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final

@@ -3,8 +3,6 @@
 Every basis also spans the rigid motions or is combined with them by the reduction, which takes them out.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Final
 

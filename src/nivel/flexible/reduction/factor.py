@@ -4,8 +4,6 @@ SuperLU as Cholesky's substitute: minimum degree of Aᵀ + A, symmetric mode, no
 about two seconds, against fifteen with the ordering that SuperLU takes by itself.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Final
 

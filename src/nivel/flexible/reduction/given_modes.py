@@ -1,7 +1,5 @@
 """Assumed mode shapes that the user gives: expressions of the place, or a table of nodal displacements."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Surfaces tied to a reference node, rigidly (RBE2) or by average (RBE3), by eliminating freedoms."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

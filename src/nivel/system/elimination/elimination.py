@@ -1,7 +1,5 @@
 """Order and pattern of the elimination of constraint rows: done once a machine, in Python; the kernels only follow it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import lru_cache
 

@@ -5,8 +5,6 @@ Unknowns come in groups that are coupled as a whole (velocities of a body, rows 
 -G M⁻¹ Gᵀ. Otherwise the order is that of minimum degree (George, Liu 1989, "The evolution of the minimum degree ordering algorithm").
 """
 
-from __future__ import annotations
-
 import heapq
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import cached_property, lru_cache

@@ -8,8 +8,6 @@ A joint that slides along a beam carries its body on all nodes of the beam. It m
 ground, in place of one that is free in space, as long as no node of the beam hangs on its body itself.
 """
 
-from __future__ import annotations
-
 import heapq
 from collections.abc import Collection, Sequence
 from typing import Final

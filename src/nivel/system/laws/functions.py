@@ -1,7 +1,5 @@
 """Functions of time and signals for the kernels: constants, tables and expressions as numbers, laws as compiled code."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 

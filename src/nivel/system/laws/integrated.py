@@ -4,8 +4,6 @@ Tables of straight lines and cubic ones are integrated exactly. Other functions 
 pieces between their corners, halved until they agree with the function at many places between these points as well.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 

@@ -1,7 +1,5 @@
 """Python laws as machine code: functions of a row of arguments, real or dual numbers."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.errors import Fault, ModelError

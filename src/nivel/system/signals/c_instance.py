@@ -1,7 +1,5 @@
 """C functions of a machine: compiled where they are a source, and loaded when a run starts, each run with a library of its own."""
 
-from __future__ import annotations
-
 import atexit
 import ctypes
 import os

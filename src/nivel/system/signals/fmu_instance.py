@@ -1,7 +1,5 @@
 """FMUs of a machine: unpacked, loaded and instantiated when a run starts, each run with instances of its own."""
 
-from __future__ import annotations
-
 import atexit
 import ctypes
 import hashlib

@@ -1,7 +1,5 @@
 """Foreign code in this process: it may change how floating-point numbers are computed, and may call `exit`. Neither goes unnoticed."""
 
-from __future__ import annotations
-
 import atexit
 import ctypes
 import ctypes.util

@@ -4,8 +4,6 @@ The compiled loop calls functions of Python in place of those of the unit, as th
 other process, and wait for the outputs.
 """
 
-from __future__ import annotations
-
 import ctypes
 import os
 import signal

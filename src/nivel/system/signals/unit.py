@@ -1,7 +1,5 @@
 """A unit of a machine, an FMU or a C function: what all of them have in common."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar

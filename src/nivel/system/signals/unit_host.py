@@ -1,7 +1,5 @@
 """The process of a unit that has one of its own: it loads the unit and answers until its run ends."""
 
-from __future__ import annotations
-
 import io
 import sys
 from multiprocessing import connection

@@ -1,7 +1,5 @@
 """Units of a machine, which are FMUs and C functions: machine code of others that its control calls."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from nivel.lazy import nivel

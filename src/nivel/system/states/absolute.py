@@ -1,7 +1,5 @@
 """q = (R, θ), v = (Ṙ, ω̄): as assembled; coordinate partitioning chooses the independent ones among v."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.kernels.bodies.coordinate import ROTATION

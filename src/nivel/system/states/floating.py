@@ -4,8 +4,6 @@ A machine is assembled with its flexible bodies rigid. Here their markers move t
 ground, and every block of C_q of such a marker gets further ones for the modes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 

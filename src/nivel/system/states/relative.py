@@ -1,7 +1,5 @@
 """Relative coordinates: the spanning tree of an assembled machine, its joint coordinates, and the rows that are left."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise

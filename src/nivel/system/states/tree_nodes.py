@@ -1,7 +1,5 @@
 """The nodes of a spanning tree: what each kind has in the state, and where that stands."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Final
 

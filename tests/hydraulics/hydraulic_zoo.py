@@ -94,6 +94,10 @@ def machine_with_circuits(command="0.3 + 0.5*rail.displacement + 1e-9*line.press
                         "friction": "0.5 N", "transition_speed": 0.5,
                     },
                 },
+                "ridden": {
+                    "type": "spool-valve", "ports": {"P": "supply", "A": "line"}, "coordinate": "rail", "stroke": "0.5 m",
+                    "edges": {"PA": {"area": {"of": "position", "points": [-1, 1], "values": ["10 mm^2", "25 mm^2"]}, "jet_angle": 0.6}},
+                },
                 "section": {
                     "type": "section", "compensation": "post", "command": 0.4, "inner_volume": "20 cm^3", "margin": "2 bar",
                     "ports": {"P": "supply", "T": "tank", "A": "line", "B": "swing.B", "LS": "ls"}, **RATED,

@@ -25,7 +25,11 @@ STATES: dict[Family, int] = {
     pump_control.regulate: pump_control.STATE,
 }
 # and with the coordinates on which families act
-COORDINATES: dict[Family, int] = {pistons.guide: pistons.COORDINATE, rotary.turn: rotary.COORDINATE}
+COORDINATES: dict[Family, int] = {
+    pistons.guide: pistons.COORDINATE,
+    rotary.turn: rotary.COORDINATE,
+    spools.ride: spools.RIDDEN,
+}
 
 
 def with_circuit_tangent(system: System) -> System:

@@ -2,7 +2,8 @@
 
     Q = K(u, |Δp|) Δp (Δp² + c²)^(-1/4) + G Δp        ṁ = ½ (ρ_a + ρ_b) Q
 
-The force of the flow on its spool, f Q √Δp, closes the edge; it belongs to the balance of `nivel.elements.circuits.spools`.
+The force of the flow on its spool, f Q √Δp, closes the edge; it belongs to the balance of `nivel.elements.circuits.spools`, or acts on the
+joint of a spool that is a body.
 
 K lies on its curves at their differences of pressure and on a straight line between them; outside, the nearest curve holds. A single
 curve is that of a sharp edge, whose flow grows with √Δp.
@@ -20,12 +21,13 @@ from nivel.elements.circuits import ranges
 from nivel.elements.circuits.curves import Curve, CurveOf, SomeCurve
 from nivel.elements.circuits.density import thickness
 from nivel.elements.circuits.kind import Phase, called, slopes_of
-from nivel.elements.circuits.ledger import lose_between, transfer
+from nivel.elements.circuits.ledger import DELIVERED, lose_between, transfer
 from nivel.elements.circuits.smooth import root_flow
 from nivel.elements.circuits.spools import SYMBOL
 from nivel.elements.circuits.tangent import add_by_pressure, add_flow_by_column, add_flow_by_pressure
 from nivel.elements.rows import element
 from nivel.kernels.algebra.analytic import real
+from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.function import table_value
 from nivel.kernels.record.record import NONE, record_at
 from nivel.machine.core.coefficient import Leakage, Share
@@ -140,12 +142,14 @@ class Edge(Checked):
 
 
 # columns of `columns`; POSITION: output of the valve; SPEED: state of its spool on which the flow acts, or NONE; then its curves, which are
-# tables. Output: flow [m³/s]
+# tables. Output: flow [m³/s]. `push` has the coordinate of a spool that is a body in place of SPEED
 OUTPUT, FROM, TO, POSITION, SPEED, FIRST_CURVE = 0, 1, 2, 3, 4, 5
+COORDINATE = SPEED
 MOST = 8  # curves of an edge
-# columns of `number`: corner c [Pa], leak G [m³/s/Pa], acceleration of the spool over Q √Δp, then the difference of pressure [Pa] of each
-# curve
+# columns of `number`: corner c [Pa], leak G [m³/s/Pa], acceleration of the spool over Q √Δp, of a body the force on it, then the difference
+# of pressure [Pa] of each curve
 CORNER, LEAK, FORCE, FIRST_DROP = 0, 1, 2, 3
+PER_METRE = LEAK  # of `push`: strokes a metre of the coordinate
 
 
 @leaf
@@ -240,3 +244,36 @@ def add_slopes(machine, index, n, t):
         add_by_pressure(circuit, row, b, -by_difference)
         if state != NONE:
             row[state] += n[FORCE] * slope * difference * difference / size
+
+
+@called(Phase.FLOWS, 16)
+@element
+def push(machine, index, n, t):
+    """Forces of the flows of edges on spools that are bodies; what they do to these the fluid does not lose."""
+    record = record_at(machine)
+    circuit = record.circuit
+    a, b, flow = index[FROM], index[TO], record.outputs.value[index[OUTPUT]]
+    effort = n[FORCE] * flow * root_flow(circuit.pressure[a] - circuit.pressure[b], n[CORNER], 0)
+    power = add_coordinate_force(machine, index[COORDINATE], effort)
+    circuit.power[DELIVERED] += power
+    lose_between(machine, a, b, flow, -power)
+
+
+@slopes_of(push)
+@element
+def add_slopes_along(machine, index, n, t):
+    """Slopes of the flows with the displacements of spools that are bodies, and of the forces on these."""
+    record = record_at(machine)
+    circuit = record.circuit
+    tangent, a, b = circuit.tangent, index[FROM], index[TO]
+    c = np.int64(tangent.number[index[COORDINATE]])
+    row, column = tangent.effort[c], tangent.state.shape[0] + c
+    difference = circuit.pressure[a] - circuit.pressure[b]
+    size = np.sqrt(difference * difference + n[CORNER] * n[CORNER])
+    _, slope = conductance_at(record.functions, index, n, record.outputs.value[index[POSITION]], difference)
+    density = 0.5 * (circuit.density[a] + circuit.density[b])
+    add_flow_by_column(circuit, a, b, column, n[PER_METRE] * density * slope * difference / np.sqrt(size))
+    by_difference = n[FORCE] * record.outputs.value[index[OUTPUT]] / np.sqrt(size)
+    add_by_pressure(circuit, row, a, by_difference)
+    add_by_pressure(circuit, row, b, -by_difference)
+    row[column] += n[FORCE] * n[PER_METRE] * slope * difference * difference / size

@@ -12,7 +12,7 @@ from nivel.elements.circuits import ranges, spools
 from nivel.elements.circuits.component import Component, problem_of_share
 from nivel.elements.circuits.curves import Curve, held_curve
 from nivel.elements.circuits.directional_valves import spool
-from nivel.elements.circuits.edges import MOST_EDGES, Edge, meter
+from nivel.elements.circuits.edges import MOST_EDGES, Edge, meter, push
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.symbol import Symbol
 from nivel.kernels.record.record import NONE
@@ -23,6 +23,7 @@ from nivel.machine.given import Field, Given, Maybe, OneNumber, OneRecord
 from nivel.machine.laws.time_function import OneFunction, varying
 from nivel.machine.laws.varying_value import Table
 from nivel.machine.units.quantity import PositiveLength, Quantity, fault
+from nivel.machine.uses.coordinate_reference import CoordinateReference
 
 PORTS = ("P", "T", "A", "B", "C", "R", "S", "LS")
 
@@ -59,7 +60,7 @@ Edges = Annotated[
 class SpoolValve(Component):
     """A spool whose edges have the curves of a catalogue, each its own. Its position goes from -1 to 1.
 
-    It follows a `command`, the `current` of a solenoid against springs, or it is `switching`.
+    It follows a `command`, the `current` of a solenoid against springs, the `coordinate` of a spool that is a body, or it is `switching`.
     """
 
     functions: ClassVar[tuple[str, ...]] = ("command", "current")
@@ -73,6 +74,9 @@ class SpoolValve(Component):
     command: Maybe[Annotated[OneFunction, varying("number")]] = Field("position asked for", default=None)
     current: Maybe[Annotated[OneFunction, varying("current")]] = Field(
         "of its `solenoid`, in place of `command`; negative: of the second one", default=None, usual=ranges.CURRENT
+    )
+    coordinate: CoordinateReference | None = Field(
+        "displacement of a joint whose body is the spool; flows act on it", default=None
     )
     solenoid: Maybe[OneRecord[spools.Solenoid]] = Field("with the springs of the spool", default=None)
     switching: Maybe[OneRecord[spools.Switching]] = Field("whether it is on or off alone", default=None)
@@ -106,16 +110,26 @@ class SpoolValve(Component):
     def problems(self) -> Iterator[Problem]:
         joined = {port for pair in self.edges for port in ends_of(pair) or ()}
         yield from self.problems_of_ports(tuple(port for port in PORTS if port in joined))
-        if (self.command is None) == (self.current is None):
-            got = "got both" if self.command is not None else "got neither"
-            yield Problem((), f"a `command`, or the `current` of a `solenoid`, was expected; {got}")
+        given = [key for key in ("command", "current", "coordinate") if getattr(self, key) is not None]
+        if len(given) != 1:
+            got = " and ".join(f"`{key}`" for key in given) or "none"
+            what = "a `command`, the `current` of a `solenoid`, or the `coordinate` of a spool that is a body"
+            yield Problem((), f"{what} was expected; got {got}")
         elif (self.current is None) != (self.solenoid is None):
             lacking = "`solenoid` is" if self.solenoid is None else "`current` is"
             yield Problem((), f"{lacking} missing: a solenoid has a `current` and a `force` over it")
         yield from problem_of_share("command", self.command, -1.0)
-        needs_stroke = self.solenoid is not None or any(edge.notches for edge in self.edges.values())
+        if self.coordinate is not None:
+            for key in ("solenoid", "switching", "frequency", "dither", "dead_band", "hysteresis"):
+                if getattr(self, key):
+                    yield superfluous(key, "belongs to a spool that is not a body")
+        needs_stroke = (
+            self.solenoid is not None
+            or self.coordinate is not None
+            or any(edge.notches for edge in self.edges.values())
+        )
         if needs_stroke and self.stroke is None:
-            yield Problem((), "`stroke` is missing: notches and springs need the way of the spool")
+            yield Problem((), "`stroke` is missing: notches, springs and bodies need the way of the spool")
         if self.solenoid is not None and self.frequency is None:
             yield Problem((), "`frequency` is missing: that of the spool on its spring, √(stiffness/mass)/2π")
         if self.switching is not None:
@@ -141,6 +155,11 @@ def _add_position(builder: SystemBuilder, component: SpoolValve) -> tuple[int, i
     """(the output that is the position, the state on which forces of flows act, or NONE)."""
     name = component.name
     position = builder.outputs.add((f"hydraulics.{name}.position", "1", f"position of {name}"))
+    if component.coordinate is not None:
+        assert component.stroke is not None  # the record was checked
+        along = builder.coordinate(component.coordinate, "length")
+        builder.elements.add(spools.ride, [position, along], [1.0 / component.stroke])
+        return position, NONE
     if component.switching is not None:
         assert component.command is not None  # the record was checked
         spools.add_switch(builder, name, position, component.command, component.switching, component.two_sided)
@@ -160,14 +179,17 @@ def _add_edge(builder: SystemBuilder, component: SpoolValve, pair: str, edge: Ed
     density = builder.circuit.fluids[builder.circuit.nodes[component.ports[ports[0]]].fluid][4]
     drops, curves = conductances(component, edge, density)
     tables = [held_curve(builder, curve) for curve in curves]
-    force = 0.0
+    opens = -1.0 if opens_backwards(curves[0]) else 1.0
+    jet, force = -opens * math.sqrt(2.0 * density) * math.cos(edge.jet_angle), 0.0
     if speed != NONE:
         builder.touch_state(speed)
-        opens = -1.0 if opens_backwards(curves[0]) else 1.0
-        jet = math.sqrt(2.0 * density) * math.cos(edge.jet_angle) / spools.full_force(component)
-        force = -opens * jet * (2.0 * math.pi * (component.frequency or 0.0)) ** 2
+        force = jet / spools.full_force(component) * (2.0 * math.pi * (component.frequency or 0.0)) ** 2
     numbers = [component.transition, edge.leakage, force, *drops]
     builder.elements.add(meter, [output, a, b, position, speed, *tables], numbers)
+    if component.coordinate is not None and component.stroke is not None:
+        along = builder.coordinate(component.coordinate, "length")
+        numbers = [component.transition, 1.0 / component.stroke, jet, *drops]
+        builder.elements.add(push, [output, a, b, position, along, *tables], numbers)
 
 
 def conductances(component: SpoolValve, edge: Edge, density: float) -> tuple[list[float], list[Table]]:
@@ -199,7 +221,7 @@ def closed_until(component: SpoolValve) -> float:
     return min(ends, default=0.0)
 
 
-OF_VALVES = (spools.drive, spools.switch, meter)
+OF_VALVES = (spools.drive, spools.ride, spools.switch, meter, push)
 
 
 def spool_valve(data: Mapping[str, Any]) -> Symbol:

@@ -82,6 +82,8 @@ CENTRE, PLAY_TIME, STOP = 0.005, 1e-3, 100.0
 
 # valves that switch: columns of `columns` as above to COMMAND, STATE: e; of `number`: least position, rates [1/s] up and down, a, b
 UP, DOWN, BEGIN, END = 1, 2, 3, 4
+# spools that are bodies: the coordinate behind OUTPUT
+RIDDEN = 1
 ROUNDED = 0.01  # E
 
 
@@ -168,6 +170,14 @@ def switch(machine, index, n, t):
     size = magnitude_within(e, 1e-9)
     opening = step((size - n[BEGIN]) * (1.0 / (n[END] - n[BEGIN])))
     record.outputs.value[index[OUTPUT]] = opening if real(e) >= 0.0 else -opening
+
+
+@called(Phase.POSITIONS, 6, slow=True)
+@element
+def ride(machine, index, n, t):
+    """Positions of spools that are bodies; columns: the output and the coordinate, number: strokes a metre."""
+    record = record_at(machine)
+    record.outputs.value[index[OUTPUT]] = n[0] * record.coordinates.value[index[RIDDEN]]
 
 
 @slopes_of(drive)

@@ -236,14 +236,16 @@ def _of_angle(component: Any, index: Index, place: Place) -> Faults:
     reference = entry(component, "coordinate")
     if not isinstance(reference, str):
         return
+    kind = "length" if entry(component, "edges") else "angle"
     try:
-        find(reference, index.joints, "angle")
+        find(reference, index.joints, kind)
     except UnknownCoordinateError:
         try:
             find(reference, index.joints)
         except UnknownCoordinateError:
             return  # reported as one that does not exist
-        yield (*place, "coordinate"), f"`{reference}` is a length; what turns needs an angle"
+        what = "an angle; a spool needs a length" if kind == "length" else "a length; what turns needs an angle"
+        yield (*place, "coordinate"), f"`{reference}` is {what}"
 
 
 def _of_engine(component: Any, index: Index, place: Place) -> Faults:
@@ -301,6 +303,11 @@ def _unrelieved(components: Any, nodes: Mapping[str, str]) -> Faults:
         for a, b in kind.passes:
             if a in ports and b in ports:
                 joined.setdefault(ports[a], set()).add(ports[b])
+        if (
+            entry(component, "coordinate") is not None and len(ports) > 1
+        ):  # a spool, or a motor, that pressures may move
+            for node in ports.values():
+                joined.setdefault(node, set()).update(ports.values())
     tanks = [name for name, type_ in nodes.items() if type_ in ("tank", "reservoir")]
     tank = next(iter(tanks), "tank")
     for at, component in enumerate(components):

@@ -231,7 +231,7 @@ def _record(tree: Tree, parameters: Parameters, made: Elements, known: Known | N
     data.setdefault("bodies", [])
     signals = {
         name: Signal(f"{name}.value")
-        for name in (*names["control"], *names["inputs"])
+        for name in (*names["control"], *names["inputs"], *names["states"])
         if can_be_named(name, parameters)
     }
     known_names: Parameters = {**parameters, **signals}

@@ -12,8 +12,9 @@ measured evaluations of the slider-crank, chains and pairs of bodies (`benchmark
 """
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from math import ceil, pi
+from typing import Any
 
 import numpy as np
 
@@ -24,6 +25,7 @@ from nivel.errors import Fault
 from nivel.integrate.catalogue import INTEGRATORS, step_for
 from nivel.known import Contact, Contacts, Friction, Stop
 from nivel.lazy import nivel
+from nivel.machine.hydraulic_fluids import GAS
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.uses.coordinate_reference import resolve
@@ -236,9 +238,11 @@ FOR_STIFF, USUAL_TOLERANCE = "radau", 1e-8
 EXPLICIT = f"no method is named; where it is stiff, {FOR_STIFF} goes on"
 STICKING = "friction that sticks is stiff"
 STIFF_CIRCUITS = "circuits are stiff, and every step of it costs the same"
+GASES = "gas flows at the speed of sound, and stops, within the shortest of fixed steps"
 TYRES = "tyres and soil are soft beside a step, and slide and stand without a switch"
 STIFF_BEAMS = "beams have rates beyond all steps"
 EXPLICIT_BEAMS = "other settings need an explicit method"
+TOLERANT = "`tolerance` needs a method that chooses its steps"
 FIXED = "other settings depend on a fixed step"
 
 
@@ -249,14 +253,16 @@ def names_no_integrator(machine: MachineRecord) -> bool:
 
 def integrators_for(machine: MachineRecord) -> tuple[tuple[str, str], ...]:
     """(integrator, why it is taken) for a machine that names none: the first one goes that its other settings allow."""
+    if any(fluid.type == GAS for fluid in machine.fluids):
+        return ((FOR_STIFF, GASES), ("extrapolated-euler", STIFF_CIRCUITS))
     if machine.hydraulics:
-        return (("extrapolated-euler", STIFF_CIRCUITS),)
+        return (("extrapolated-euler", STIFF_CIRCUITS), (FOR_STIFF, TOLERANT))
     if machine.beams:
         impacts = any(isinstance(force, Contact | Contacts | Stop) for force in machine.forces)
         names = (FOR_STIFF, "bdf", "generalised-alpha") if impacts else ("generalised-alpha", FOR_STIFF, "bdf")
         return (*((name, STIFF_BEAMS) for name in names), ("dopri5", EXPLICIT_BEAMS), ("rk4", FIXED))
     if any(force.type in ("tyre", "track", "blade", "soil-wheel") for force in machine.forces):
-        return (("rk4", TYRES),)
+        return (("rk4", TYRES), (FOR_STIFF, TOLERANT))
     if any(force.sticks for force in machine.forces):
         return ((FOR_STIFF, STICKING), ("dopri5", STICKING), ("rk4", FIXED))
     return (("dopri5", EXPLICIT), ("rk4", FIXED))
@@ -267,6 +273,15 @@ def with_integrator(machine: MachineRecord, name: str, **changes: float) -> Mach
     settings = machine.simulation
     own = {} if "tolerance" in settings.model_fields_set else {"tolerance": USUAL_TOLERANCE}
     return machine.with_simulation(settings.replace(integrator=name, **{**own, **changes}))
+
+
+def with_scales(machine: MachineRecord, scales: Mapping[str, float]) -> MachineRecord:
+    """The machine whose states and control blocks of these names have these scales."""
+
+    def scaled(records: tuple[Any, ...]) -> tuple[Any, ...]:
+        return tuple(each.replace(scale=scales[each.name]) if each.name in scales else each for each in records)
+
+    return machine.replace(states=scaled(machine.states), control=scaled(machine.control))
 
 
 def with_dividing_step(machine: MachineRecord) -> MachineRecord:

@@ -127,10 +127,13 @@ def plan_run(machine: MachineRecord, given: Collection[str] = (), *, stepwise: b
     """
     if not choice.names_no_integrator(machine) or (stepwise and not machine.hydraulics):
         return replace(_planned(machine, given), is_open=choice.names_no_integrator(machine))
+    asked = {*given} if stepwise else {*given, *({"tolerance"} & machine.simulation.model_fields_set)}
     refused: list[ModelError] = []
     for name, reason in choice.integrators_for(machine):
+        if stepwise and INTEGRATORS[name].chooses_steps:
+            continue
         try:
-            plan = _planned(choice.with_integrator(machine, name), given)
+            plan = _planned(choice.with_integrator(machine, name), asked)
         except ModelError as error:
             refused.append(error)
             continue

@@ -1,10 +1,10 @@
 """A whole run: from a machine record to a result with its trust report; and the second choice of a run that names no integrator.
 
-Other steps are tried where the trust report is not green for what steps can cure. The second run of the first choice is there and finer:
-it becomes the result, and a third one with a tenth of its tolerance verifies it. Where the motion turned to another branch, fixed steps
-are tried, which pass over the corner. Where steps are fixed, the machine runs once more with
-steps as short as the lines that are not green ask for, and work allows. At last radau runs from the start, but of beams, whose vibrations
-it would follow. The choice whose report is best is kept, and the report says what was tried.
+Other steps are tried where the trust report is not green for what steps can cure. States that stayed far below their scale have the largest
+value of the first run as theirs. The second run of the first choice is there and finer: it becomes the result, and a third one with a tenth
+of its tolerance verifies it. Where the motion turned to another branch, fixed steps are tried, which pass over the corner. Where steps are
+fixed, the machine runs once more with steps as short as the lines that are not green ask for, and work allows. At last radau runs from the
+start, but of beams, whose vibrations it would follow. The choice whose report is best is kept, and the report says what was tried.
 """
 
 import json
@@ -14,7 +14,7 @@ from math import ceil
 from os import PathLike
 from typing import Final
 
-from nivel.analysis.plan.choice import FOR_STIFF, USUAL_TOLERANCE
+from nivel.analysis.plan.choice import FOR_STIFF, USUAL_TOLERANCE, with_scales
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan, other_run
 from nivel.analysis.preparation.attributes import run_attributes, settings_in_json
@@ -27,6 +27,7 @@ from nivel.errors import ModelError, SolveError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop.run import ITERATED, MOST_ITERATED, STEPPED, TAKEN
 from nivel.integrate.loop.sink import Header
+from nivel.judge.after.checks.states import look_at_states
 from nivel.judge.after.report import assess, lines_apart
 from nivel.judge.after.subject import Run, run_of
 from nivel.judge.during.stop import Status
@@ -43,7 +44,7 @@ from nivel.words.wording import seconds
 
 # Lines of the trust report that speak of what steps do.
 OF_STEPS = frozenset(
-    {"energy", "violation", "rate_violation", "accuracy", "quantities", "parts"}
+    {"energy", "violation", "rate_violation", "accuracy", "quantities", "parts", "states"}
     | {"loads", "sampling", "events", "contact", "steps", "turn", "hydraulics", "damped", "rolling"}
 )
 # Lines on what was not examined, or how a run ended.
@@ -54,6 +55,7 @@ STATUSES = (
     *(Status.CRAWLS, Status.OUT_OF_REACH, Status.CONTRADICTION),
 )
 OF_FIXED_STEPS: Final = "rk4"
+AT_LAST: Final = "no method is named, and the steps that are usual for such a machine were not exact enough"
 FAILED: Final = "no method is named, and steps that follow the motion come to no end"
 BRANCHED: Final = "no method is named, and steps that follow the motion turn where it branches"
 # Fixed steps are divided by so much at most; the error is to be this much below what is green.
@@ -105,10 +107,18 @@ def second_choice(first: Attempt, options: Options, *, judge: bool) -> tuple[Att
 def _choices(first: Attempt, trust: Trust, options: Options) -> Iterator[Attempt]:
     """Other choices, made when they are asked for."""
     plan = first.plan
-    asked = plan.asked.simulation.model_fields_set if plan.asked is not None else set()
+    if plan.asked is None:
+        return
+    asked = plan.asked.simulation.model_fields_set
     if any(item.name == "branch" and item.verdict != "green" for item in trust.items):
         passing = other_run(plan, OF_FIXED_STEPS)
         if passing is not None and (choice := _started(replace(passing, reason=BRANCHED), options)) is not None:
+            yield choice
+    if "states" in _open_lines(trust):
+        small = look_at_states(first.run)
+        scaled = with_scales(plan.asked, {each.place[1]: each.largest for each in small})
+        other = other_run(replace(plan, asked=scaled), plan.settings.integrator)
+        if other is not None and (choice := _started(replace(other, asked=plan.asked), options)) is not None:
             yield choice
     if "tolerance" in asked:
         return
@@ -126,7 +136,7 @@ def _choices(first: Attempt, trust: Trust, options: Options) -> Iterator[Attempt
     usual = (FOR_STIFF, USUAL_TOLERANCE)
     if (plan.settings.integrator, plan.settings.tolerance) != usual and not plan.machine.beams:
         last = other_run(plan, FOR_STIFF)
-        if last is not None and (choice := _started(last, options)) is not None:
+        if last is not None and (choice := _started(replace(last, reason=AT_LAST), options)) is not None:
             yield choice
 
 

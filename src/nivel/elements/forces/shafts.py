@@ -163,7 +163,8 @@ def flank(depth, rate, stiffness, damping, remembered, followed):
         return nothing, nothing, kept
     elastic = stiffness * depth
     force = elastic + damping * rate
-    if real(depth) > 0.0 and real(force) < 0.0:
+    # With a damper it has ceased to push before it parts: what is followed beyond that is none, as before it.
+    if real(force) < 0.0 and (real(depth) > 0.0 or real(damping) > 0.0):
         force = nothing
     return force, elastic, kept
 
@@ -234,12 +235,12 @@ def watch(elements, k, place, value):
 
 
 @leaf
-def tension(elastic, whole, remembered, held):
-    """Tension of a strand, of its spring and `whole`: none where it is slack, and it never pushes. held : it pulls or not as in the last
-    accepted state, so that steps can end where that changes."""
-    if held:
+def tension(elastic, whole, damping, remembered, held):
+    """Tension of a strand, of its spring and `whole`: none where it is slack, and it never pushes. held : it is taut or slack as in the
+    last accepted state, so that steps can end where that changes."""
+    if held and (remembered == 0.0 or real(damping) == 0.0):
         return whole if remembered > 0.0 else 0.0 * whole
-    return maximum(whole, 0.0) if real(elastic) > 0.0 else 0.0 * whole
+    return maximum(whole, 0.0) if held or real(elastic) > 0.0 else 0.0 * whole
 
 
 @element
@@ -265,11 +266,13 @@ def pull_belt(machine, k, index, n, t):
     y = stiffness * z + n[BeltRow.DAMPING] * stretching
     y = minimum(maximum(y, stiffness * low), stiffness * high)
     first, second = maximum(pretension + stiffness * z, 0.0), maximum(pretension - stiffness * z, 0.0)
-    held = record.watched.followed[0] == 1 and high == np.inf
-    pull = tension(pretension + stiffness * z, pretension + y, elements.memory[k, PULLS], held)
-    back = tension(pretension - stiffness * z, pretension - y, elements.memory[k, PULLS_BACK], held)
-    watch(elements, k, PULLS, minimum(pretension + stiffness * z, pretension + y))
-    watch(elements, k, PULLS_BACK, minimum(pretension - stiffness * z, pretension - y))
+    held, damping = record.watched.followed[0] == 1 and high == np.inf, n[BeltRow.DAMPING]
+    pull = tension(pretension + stiffness * z, pretension + y, damping, elements.memory[k, PULLS], held)
+    back = tension(pretension - stiffness * z, pretension - y, damping, elements.memory[k, PULLS_BACK], held)
+    watch(elements, k, PULLS, pretension + stiffness * z)
+    watch(elements, k, PULLS_BACK, pretension - stiffness * z)
+    if held:
+        elements.depth_rate[k, PULLS], elements.depth_rate[k, PULLS_BACK] = stiffness * rate, -stiffness * rate
     effort = pull - back
     control.stored[0] += 0.5 * (first * first + second * second) / stiffness
     control.power[1] += effort * rate - (first - second) * stretching

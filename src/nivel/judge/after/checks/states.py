@@ -250,6 +250,11 @@ class SmallState:
     largest: float
     scale: float
 
+    @property
+    def place(self) -> list[str]:
+        """The section and the name of the record to which it belongs."""
+        return self.name.split(".")[:2] if self.name.startswith("control.") else ["states", self.name]
+
 
 def look_at_states(run: Run) -> list[SmallState]:
     """The small states of `states` and `control`; those of forces and circuits have the scales of their elements."""
@@ -267,9 +272,7 @@ def look_at_states(run: Run) -> list[SmallState]:
 def say_state(found: SmallState) -> Item:
     """A state of which the tolerance says little."""
     said = f"the largest value of {found.name} is {number(found.largest)}, its scale is {number(found.scale)}: the tolerance hardly held"
-    section, name = ("states", found.name)
-    if found.name.startswith("control."):
-        section, name = found.name.split(".")[:2]
+    section, name = found.place
     advice = f"write `{section}: {{{name}: {{scale: {found.largest:.1g}}}}}`"
     return Item("states", "amber", f"States: {said} it; {advice}", row=found.name)
 

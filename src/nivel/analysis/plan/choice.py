@@ -25,7 +25,6 @@ from nivel.errors import Fault
 from nivel.integrate.catalogue import INTEGRATORS, step_for
 from nivel.known import Contact, Contacts, Friction, Stop
 from nivel.lazy import nivel
-from nivel.machine.hydraulic_fluids import GAS
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.uses.coordinate_reference import resolve
@@ -253,7 +252,7 @@ def names_no_integrator(machine: MachineRecord) -> bool:
 
 def integrators_for(machine: MachineRecord) -> tuple[tuple[str, str], ...]:
     """(integrator, why it is taken) for a machine that names none: the first one goes that its other settings allow."""
-    if any(fluid.type == GAS for fluid in machine.fluids):
+    if any(fluid.type == "ideal-gas" for fluid in machine.fluids):
         return ((FOR_STIFF, GASES), ("extrapolated-euler", STIFF_CIRCUITS))
     if machine.hydraulics:
         return (("extrapolated-euler", STIFF_CIRCUITS), (FOR_STIFF, TOLERANT))

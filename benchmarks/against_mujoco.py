@@ -13,6 +13,7 @@ from __future__ import annotations
 import tempfile
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import mujoco
@@ -25,7 +26,7 @@ import nivel
 
 MACHINE = Path(__file__).parent.parent / "examples" / "control" / "cart-pole.yaml"
 READINGS = ("rail.displacement", "hinge.angle", "rail.displacement.rate", "hinge.angle.rate")
-STEPS, ROUNDS, COPIES = 500, 10, 64
+STEPS, ROUNDS, COPIES = 500, 10, 16
 STEP = 2e-3
 FORCES = 0.5 * np.sin(np.arange(STEPS))
 
@@ -57,9 +58,12 @@ def ours(machine: nivel.Machine, integrator: str) -> dict[str, Way]:
     """What is measured of nivel, and how many steps each way makes."""
     machine = machine.without("end_right", "end_left", "fallen_right", "fallen_left")
     given = {"integrator": integrator, "step": STEP}
-    sim, sims = machine.start(**given), machine.start(n=COPIES, **given)
+    sim, sims = (
+        machine.start(**given),
+        {lanes: machine.start(n=COPIES, lanes=lanes, **given) for lanes in (True, False)},
+    )
     readings = tuple(name for name in READINGS if name in sim)
-    begin, begins = sim.state, sims.states
+    begin, begins = sim.state, sims[False].states
 
     def environment() -> None:
         sim.restore(begin)
@@ -72,17 +76,23 @@ def ours(machine: nivel.Machine, integrator: str) -> dict[str, Way]:
         sim.restore(begin)
         sim.advance(STEPS * STEP)
 
-    def many() -> None:
-        sims.restore(begins)
-        for force in FORCES[: STEPS // 10]:
-            sims.step({"push": np.full(COPIES, force)})
-            for name in readings:
-                sims[name]
+    def many(lanes: bool, names: tuple[str, ...]) -> None:
+        sims[lanes].restore(begins)
+        for force in FORCES:
+            sims[lanes].step({"push": np.full(COPIES, force)})
+            for name in names:
+                sims[lanes][name]
+
+    copies: dict[str, Way] = {}
+    for lanes, word in ((True, "in lanes"), (False, "singly")):
+        for names in (readings, ()):
+            what = f"nivel {integrator}, {COPIES} copies {word}, an input and {len(names)} readings"
+            copies[what] = partial(many, lanes, names), STEPS * COPIES
 
     return {
         f"nivel {integrator}, step with an input and {len(readings)} readings": (environment, STEPS),
         f"nivel {integrator}, steps in one call": (loop, STEPS),
-        f"nivel {integrator}, {COPIES} copies by one call, inputs and readings": (many, STEPS // 10 * COPIES),
+        **copies,
     }
 
 

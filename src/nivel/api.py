@@ -298,6 +298,7 @@ class Machine(Model):
         *,
         n: int,
         values: Mapping[str, Any] | None = None,
+        lanes: bool | None = None,
         listener: Listener | None = None,
         **settings: Unpack[StepSettingsDict],
     ) -> Simulations: ...
@@ -339,6 +340,7 @@ class Machine(Model):
         *,
         n: int | None = None,
         values: Mapping[str, Any] | None = None,
+        lanes: bool | None = None,
         record: bool = False,
         listener: Listener | None = None,
         **settings: Unpack[StepSettingsDict],
@@ -347,28 +349,30 @@ class Machine(Model):
 
         Settings override those of the machine's `simulation`, as in `simulate`. The time has no end; steps are fixed.
         record : keep a frame every `output_interval`, for ``sim.result()``. n : so many copies, which one call steps:
-        ``sims.step({"push": forces})``, ``sims["hinge.angle"]`` (n,); values : lists of n values by path, other numbers of each copy.
+        ``sims.step({"push": forces})``, ``sims["hinge.angle"]`` (n,); values : lists of n values by path, other numbers of each copy;
+        lanes : whether several go by each step, by machine code that is compiled in about a minute, once; None : where there is some.
         Raises ModelError.
         """
         chosen, plan = self._ready(settings, listener, stepwise=True)
         if n is None:
             if values:
                 raise ModelError(Fault.at("values", "lists of values make several copies: say how many, n=3"))
+            if lanes:
+                raise ModelError(Fault.at("lanes", "several copies go in lanes: say how many, n=8"))
             with retold(chosen.origin.placed):
                 return nivel.analysis.run.stepping.Simulation(plan, source=self.origin.source, record=record)
         if n < 1 or record:
             message = "copies keep no frames" if record else f"a number of copies of at least 1 was expected, got {n}"
             raise ModelError(Fault.at("record" if record else "n", message))
-        if not values:
-            with retold(chosen.origin.placed):
-                return nivel.analysis.run.many.Simulations([plan] * n, source=self.origin.source)
-        rows = nivel.analysis.sweep.variants.rows_of(values)
-        if len(rows) != n:
-            raise ModelError(Fault.at("values", f"lists of {n} values are needed; there are {len(rows)}"))
-        machines = [chosen.with_values(row) for row in rows]
-        plans = [each._plan(each.origin.settings_outside, stepwise=True) for each in machines]
+        plans = [plan] * n
+        if values:
+            rows = nivel.analysis.sweep.variants.rows_of(values)
+            if len(rows) != n:
+                raise ModelError(Fault.at("values", f"lists of {n} values are needed; there are {len(rows)}"))
+            machines = [chosen.with_values(row) for row in rows]
+            plans = [each._plan(each.origin.settings_outside, stepwise=True) for each in machines]
         with retold(chosen.origin.placed):
-            return nivel.analysis.run.many.Simulations(plans, source=self.origin.source)
+            return nivel.analysis.run.many.Simulations(plans, source=self.origin.source, lanes=lanes, listener=listener)
 
     def sweep(
         self,

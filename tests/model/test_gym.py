@@ -129,6 +129,42 @@ def test_environments_side_by_side_and_a_recorded_episode(machine):
     assert again.time == env.simulation.time
 
 
+@pytest.mark.compiles
+@pytest.mark.parametrize("lanes", [True, False])
+def test_environments_in_lanes_are_those_that_run_one_after_the_other(machine, lanes):
+    """Beside Gymnasium's own vector of single environments: observations, rewards, ends, new episodes, and what is drawn for them."""
+    given = {
+        "observe": STATE,
+        "every": "20 ms",
+        "duration": "0.6 s",
+        "vary": {"joints.hinge.start.angle": ("-8 deg", "8 deg"), "bodies.pole.mass": (0.05, 0.2)},
+        "reward": "10*hinge.angle + hinge.angle_rate^2 + push.value + time",
+    }
+    several = environments(11, machine, lanes=lanes, **given)
+    alone = gymnasium.vector.SyncVectorEnv([lambda: environment(machine, **given)] * 11)
+    assert several.observation_space == alone.observation_space
+    assert several.action_space == alone.action_space
+    for seed in (4, None):
+        np.testing.assert_array_equal(several.reset(seed=seed)[0], alone.reset(seed=seed)[0])
+    ends, in_lanes = np.zeros(3, dtype=int), 0.0
+    for k in range(60):
+        actions = np.random.default_rng(k).uniform(-1.0, 1.0, (11, 1)).astype(np.float32)
+        found, wanted = several.step(actions), alone.step(actions)
+        for a, b in zip(found[:2], wanted[:2], strict=True):
+            np.testing.assert_allclose(a, b, rtol=0.0, atol=1e-11 * np.abs(b).max())
+        for a, b in zip(found[2:4], wanted[2:4], strict=True):
+            np.testing.assert_array_equal(a, b)
+        np.testing.assert_allclose(found[4]["time"], wanted[4]["time"], rtol=1e-12, atol=1e-15)
+        for n, came in enumerate(wanted[4].get("events", [])):
+            assert came is None or came == (
+                found[4]["events"][n] if "events" in found[4] and found[4]["_events"][n] else []
+            )
+        ends += found[2].sum(), found[3].sum(), 1
+        in_lanes += several.simulations.in_lanes.mean() / 60
+    assert (ends > 0).all()
+    assert (in_lanes > 0.5) == lanes
+
+
 @pytest.mark.parametrize(
     ("given", "said"),
     [

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import toy_packs
 
-from nivel.native.packs import lanes_watched
+from nivel.native.packs import LanesWatched
 from nivel.native.processor import lane_count
 
 pytestmark = pytest.mark.compiles
@@ -18,7 +18,7 @@ def called(entry, x, count):
     out, row = np.full((count, LANES), np.nan), (ctypes.c_void_p, ctypes.c_int64)
     function = ctypes.CFUNCTYPE(ctypes.c_int64, *row, *row)(entry.packed.address)
     x = np.ascontiguousarray(x)
-    with lanes_watched() as left:
+    with LanesWatched() as left:
         status = function(x.ctypes.data, len(x), out.ctypes.data, count)
         return out, status, [bool(left.value >> lane & 1) for lane in range(LANES)]
 
@@ -60,7 +60,7 @@ def test_what_is_no_number_in_one_lane_leaves_alone():
 
 
 def test_threads_know_of_their_own_lanes_alone():
-    with lanes_watched() as mine:
+    with LanesWatched() as mine:
         _, _, stays = called(toy_packs.branches, np.array([np.arange(LANES) - 0.5, *np.zeros((2, LANES))]), 4)
         assert not all(stays)
         assert mine.value == (1 << LANES) - 1

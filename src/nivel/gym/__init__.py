@@ -56,11 +56,22 @@ def environment(
 
 @checked_arguments
 def environments(
-    count: int, machine: Machine | str | PathLike[str], *, reward: str | Callable[..., float], **given: Any
+    count: int,
+    machine: Machine | str | PathLike[str],
+    *,
+    reward: str | Callable[..., float],
+    lanes: bool | None = None,
+    **given: Any,
 ) -> "gymnasium.vector.VectorEnv[Any, Any, Any]":
-    """So many environments side by side as a vector environment of Gymnasium; what is given is that of `environment`."""
+    """So many environments side by side as a vector environment of Gymnasium; what is given is that of `environment`.
+
+    With a reward that is an expression, several go by each step where they can; lanes : as of `machine.start`.
+    """
     require("environments for reinforcement learning need", "gymnasium")
     if count < 1:
         raise ModelError(Fault.at("count", f"at least one environment was expected, got {count}"))
     same = machine if isinstance(machine, Machine) else load(machine)
+    if isinstance(reward, str) and not given.get("record"):
+        one: Any = environment(same, reward=reward, **given)
+        return nivel.gym.machine_environment.MachineEnvironments(count, one, reward, lanes=lanes)
     return gymnasium.vector.SyncVectorEnv([lambda: environment(same, reward=reward, **given)] * count)

@@ -6,12 +6,16 @@ from typing import Any
 import gymnasium
 import numpy as np
 from gymnasium.spaces import Box
+from gymnasium.utils.seeding import np_random
+from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
+from nivel.analysis.run.many import Simulations
 from nivel.analysis.run.stepping import Simulation, Snapshot
 from nivel.api import Machine
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.machine.laws.varying_value import Expression
+from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.quantity import asked
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.result import Result
@@ -45,9 +49,9 @@ class MachineEnvironment(gymnasium.Env[Any, Any]):
         record: bool,
         settings: Mapping[str, Any] | None,
     ) -> None:
-        self._machine, self._settings, self._record = machine, dict(settings or {}), record
+        self.machine, self.settings, self._record = machine, dict(settings or {}), record
         self._vary = _ranges(machine, vary or {})
-        self.simulation: Simulation = self._started({})
+        self.simulation: Simulation = self.started({})
         self._begin: Snapshot = self.simulation.state
         self._reward = reward_of(reward, self.simulation)
         self.observation_names, self.observation_space = _observed(self.simulation, observe)
@@ -57,9 +61,9 @@ class MachineEnvironment(gymnasium.Env[Any, Any]):
         low, high = (np.full(len(ranges), -1.0), np.full(len(ranges), 1.0)) if scaled else (self._low, self._high)
         self.action_space = Box(low.astype(np.float32), high.astype(np.float32), dtype=np.float32)
         step = self.simulation.step_size
-        self._steps = 1 if every is None else _whole_steps(every, step)
-        self._every = self._steps * step
-        self._duration = machine.simulation.duration if duration is None else _time("duration", duration)
+        self.steps = 1 if every is None else _whole_steps(every, step)
+        self.every = self.steps * step
+        self.duration = machine.simulation.duration if duration is None else _time("duration", duration)
         self._nominal = True
 
     def reset(
@@ -70,10 +74,9 @@ class MachineEnvironment(gymnasium.Env[Any, Any]):
         seed : of the numbers drawn from then on. Raises ModelError.
         """
         super().reset(seed=seed)
-        drawn = {path: float(self.np_random.uniform(low, high)) for path, (low, high) in self._vary.items()}
-        values = drawn | dict((options or {}).get(VALUES, {}))
+        values = self.drawn(self.np_random) | dict((options or {}).get(VALUES, {}))
         if values or not self._nominal:
-            self.simulation = self._started(values)
+            self.simulation = self.started(values)
         else:
             self.simulation.restore(self._begin)
         self._nominal = not values
@@ -88,25 +91,31 @@ class MachineEnvironment(gymnasium.Env[Any, Any]):
         sim, information = self.simulation, {}
         before = len(sim.events)
         try:
-            sim.advance(self._every, self._inputs(action))
+            sim.advance(self.every, self.inputs_of(action))
         except SolveError as error:
             information["failure"] = str(error)
         information |= {"time": sim.time, "events": [each.name for each in sim.events[before:]]}
         ended = bool(sim.stopped_by) or "failure" in information
-        over = sim.time > self._duration - ROUND_OFF * self._every
+        over = sim.time > self.duration - ROUND_OFF * self.every
         return self._observation(), float(self._reward(sim, action)), ended, over and not ended, information
 
     def result(self) -> Result:
         """The frames of the present episode, for plots and the viewer; of environments with `record=True`."""
         return self.simulation.result()
 
-    def _started(self, values: Mapping[str, Any]) -> Simulation:
-        machine = self._machine.with_values(values) if values else self._machine
-        return machine.start(record=self._record, **self._settings)
+    def started(self, values: Mapping[str, Any]) -> Simulation:
+        """The machine with these values by path, at its start."""
+        machine = self.machine.with_values(values) if values else self.machine
+        return machine.start(record=self._record, **self.settings)
 
-    def _inputs(self, action: Any) -> dict[str, float]:
+    def drawn(self, random: np.random.Generator) -> dict[str, float]:
+        """New values of `vary`."""
+        return {path: float(random.uniform(low, high)) for path, (low, high) in self._vary.items()}
+
+    def inputs_of(self, action: Any) -> dict[str, Any]:
+        """Values of the inputs; of actions (n, inputs) of copies n of each. Raises ModelError."""
         given = np.asarray(action, dtype=float)
-        if given.shape != self._low.shape:
+        if given.shape[-1:] != self._low.shape:
             raise ModelError(Fault.at("action", f"{len(self._low)} numbers were expected, got {shown(given.tolist())}"))
         if self._scaled:
             given = self._low + 0.5 * (given + 1.0) * (self._high - self._low)
@@ -114,11 +123,83 @@ class MachineEnvironment(gymnasium.Env[Any, Any]):
         slack = 1e-6 * (self._high - self._low)
         inside = (given >= self._low - slack) & (given <= self._high + slack)
         given = np.where(inside, np.clip(given, self._low, self._high), given)
-        return dict(zip(self.action_names, given.tolist(), strict=True))
+        return dict(zip(self.action_names, given.T if given.ndim > 1 else given.tolist(), strict=True))
 
     def _observation(self) -> Observation:
         sim = self.simulation
         return np.array([sim[name] for name in self.observation_names], dtype=float)
+
+
+class MachineEnvironments(gymnasium.vector.VectorEnv[Any, Any, Any]):
+    """Copies of a machine that a learner moves together, each as a `MachineEnvironment`; one whose episode is over begins anew at the next
+    step.
+
+    `simulations` are the copies in motion, of which several go by each step where they can.
+    """
+
+    def __init__(self, count: int, one: MachineEnvironment, reward: str, *, lanes: bool | None) -> None:
+        """one : like which all are."""
+        self.num_envs, self._one = count, one
+        self.metadata = {"autoreset_mode": gymnasium.vector.AutoresetMode.NEXT_STEP}
+        self._signals, self._reward = expression_reward(reward, one.simulation)
+        self.simulations: Simulations = one.machine.start(n=count, lanes=lanes, **one.settings)
+        self._begin, self._nominal = self.simulations.states[0], np.ones(count, dtype=bool)
+        self.single_observation_space, self.single_action_space = one.observation_space, one.action_space
+        self.observation_space, self.action_space = (
+            batch_space(each, count) for each in (one.observation_space, one.action_space)
+        )
+        self._random = [np_random()[0] for _ in range(count)]
+        self._ended = np.zeros(count, dtype=bool)
+
+    def reset(
+        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
+        """Begin an episode of each. seed : of the first, those of the others count on from it; or one of each. options : as of one."""
+        count = self.num_envs
+        seeds = range(seed, seed + count) if isinstance(seed, int) else seed or [None] * count
+        for k, each in enumerate(seeds):
+            self._random[k] = self._random[k] if each is None else np_random(each)[0]
+        self._ended[:] = False
+        information = self._begun(range(count), dict((options or {}).get(VALUES, {})))
+        return self._observation(), information | self._times()
+
+    def step(
+        self, actions: Any
+    ) -> tuple[Observation, Observation, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
+        """Set the inputs of all, and let them move until the next actions. Raises ModelError as a single environment does."""
+        sims, one, over = self.simulations, self._one, self._ended
+        information = self._begun(np.flatnonzero(over).tolist(), {})
+        before = [len(each) for each in sims.events]
+        sims.go(one.steps, one.inputs_of(actions), ~over)
+        events, terminated = sims.events, ~sims.alive
+        came = [[each.name for each in now[count:]] for now, count in zip(events, before, strict=True)]
+        for k in np.flatnonzero(terminated | np.array([bool(each) for each in came])).tolist():
+            failure = {"failure": sims.reasons[k]} if terminated[k] and not came[k] else {}
+            information = self._add_info(information, {"events": came[k]} | failure, k)
+        values, time = sims[self._signals].tolist(), sims.time
+        rewards = [0.0 if over[k] else self._reward(time[k], values[k]) for k in range(self.num_envs)]
+        truncated = (time > one.duration - ROUND_OFF * one.every) & ~terminated & ~over
+        self._ended = terminated | truncated
+        return self._observation(), np.array(rewards), terminated, truncated, information | self._times()
+
+    def _begun(self, which: Sequence[int], given: Mapping[str, Any]) -> dict[str, Any]:
+        """Begin new episodes of these."""
+        information: dict[str, Any] = {}
+        for k in which:
+            values = self._one.drawn(self._random[k]) | dict(given)
+            if values or not self._nominal[k]:
+                self.simulations.replace(k, self._one.started(values))
+            else:
+                self.simulations.restore(self._begin, [k])
+            self._nominal[k] = not values
+            information = self._add_info(information, {"values": values}, k)
+        return information
+
+    def _times(self) -> dict[str, Any]:
+        return {"time": self.simulations.time, "_time": np.ones(self.num_envs, dtype=bool)}
+
+    def _observation(self) -> Observation:
+        return self.simulations[self._one.observation_names]
 
 
 def _observed(
@@ -200,21 +281,26 @@ def reward_of(given: str | Callable[..., float], sim: Simulation) -> Reward:
     """The reward after each action. Raises ModelError where an expression cannot be read, or has a name that `sim` does not know."""
     if callable(given):
         return given
+    signals, value = expression_reward(given, sim)
+    return lambda sim, _action: value(sim.time, [float(sim[signal]) for signal in signals])
+
+
+def expression_reward(given: str, sim: Simulation) -> tuple[tuple[str, ...], Callable[[float, Sequence[float]], float]]:
+    """Names of the numbers that a reward depends on, and its value at a time [s] with these. Raises ModelError as `reward_of` does."""
     try:
         expression = Expression(given)
-        signals = expression.signals
+        signals, tree = expression.signals, expression.tree
     except ExpressionError as problem:
         raise ModelError(Fault.at("reward", f"`{given}`: {problem}")) from None
     for signal in signals:
         if signal not in sim or hasattr(sim[signal], "shape"):
             raise ModelError(Fault.at("reward", unknown_word(signal, [*sim.names], "number of the results")))
 
-    def reward(sim: Simulation, _action: Any) -> float:
-        values = {signal: float(sim[signal]) for signal in signals}
+    def reward(time: float, values: Sequence[float]) -> float:
         try:
-            return float(expression(sim.time, values))
+            return evaluate(tree, time, dict(zip(signals, values, strict=True)))
         except ExpressionError as problem:
-            said = f"`{given}` has no value at t = {sim.time:.6g} s: {problem}"
+            said = f"`{given}` has no value at t = {time:.6g} s: {problem}"
             raise ModelError(Fault.at("reward", said)) from None
 
-    return reward
+    return signals, reward

@@ -8,8 +8,6 @@ from __future__ import annotations
 
 import ctypes
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import cache
 from typing import Any, Final
 
@@ -43,13 +41,19 @@ if HAS_LANES:
     VARIABLES[KEY] = ctypes.addressof(_key()[1])
 
 
-@contextmanager
-def lanes_watched() -> Iterator[ctypes.c_uint64]:
-    """While this lasts, calls of this thread note which lanes have not left: a bit for each, the first one lowest."""
-    library, key = _key()
-    left = ctypes.c_uint64((1 << lane_count()) - 1)
-    library.pthread_setspecific(key, ctypes.byref(left))
-    try:
-        yield left
-    finally:
-        library.pthread_setspecific(key, None)
+class LanesWatched:
+    """While it lasts, as a context, calls of this thread note which lanes have not left: a bit for each, the first one lowest.
+
+    lanes : those that are in use, all by default.
+    """
+
+    def __init__(self, lanes: int = -1) -> None:
+        self._library, self._key = _key()
+        self._left = ctypes.c_uint64(lanes & ((1 << lane_count()) - 1))
+
+    def __enter__(self) -> ctypes.c_uint64:
+        self._library.pthread_setspecific(self._key, ctypes.byref(self._left))
+        return self._left
+
+    def __exit__(self, *_: object) -> None:
+        self._library.pthread_setspecific(self._key, None)

@@ -132,13 +132,13 @@ class LoopOnNumbers:
             functions=machine.functions._replace(address=np.array(laws, dtype=np.uint64)),
         )
         self.run, self._advance = run, getattr(advance, numbers)
-        self._handles = Handle(self.machine), Handle(self.run)
+        self.handle, self._history = Handle(self.machine), Handle(self.run)
         codes = (getattr(each, numbers).address for each in (loop.evaluate, loop.correct, loop.step))
-        self._addresses = *codes, *(int(each.address) for each in self._handles)
+        self.addresses = *codes, int(self.handle.address), int(self._history.address)
 
     def advance(self) -> int:
         """Go on for the budget of steps in the counter of the run. Returns a status."""
-        return self._advance(*self._addresses)
+        return self._advance(*self.addresses)
 
 
 def march(
@@ -469,17 +469,18 @@ def give_held(
     if len(frames):
         for sink in sinks:
             sink.take(frames)
-    finished.events += _occurrences(events, system.events)
+    finished.events += occurrences(events, system.events)
 
 
 def taken_events(run: Run, names: tuple[str, ...]) -> list[Occurrence]:
     """Events of the buffer, which is empty then."""
     filled = int(run.counter[of_run.EVENTS])
     run.counter[of_run.EVENTS] = 0
-    return _occurrences(run.events[:filled], names)
+    return occurrences(run.events[:filled], names)
 
 
-def _occurrences(events: Array, names: tuple[str, ...]) -> list[Occurrence]:
+def occurrences(events: Array, names: tuple[str, ...]) -> list[Occurrence]:
+    """Events (n, 3) of a run: time [s], number, direction."""
     return [
         Occurrence(names[int(number)], float(time), "rising" if direction > 0.0 else "falling")
         for time, number, direction in events

@@ -39,6 +39,7 @@ from nivel.results.frames.csv_table import columns
 from nivel.results.frames.summary import Occurrence
 from nivel.results.memory import Memory
 from nivel.results.result import Result
+from nivel.system.layout import VARIABLES
 from nivel.words.arguments import plain
 from nivel.words.wording import shown, unknown_word
 
@@ -49,6 +50,10 @@ CLOSED: Final = 1e-10
 CORRECTIONS: Final = 20
 LARGEST: Final = float(np.finfo(float).max)
 NO_RANGE: Final = (1.0, -1.0)
+# variables of frames that redundant joints have no part in
+UNSHARED: Final = frozenset(
+    name for name, *_ in VARIABLES if not name.startswith(("joint_force", "joint_torque", "constraint_force"))
+)
 PLACED: Final = 1e-9  # share of the machine's size by which bodies may miss their places
 
 
@@ -102,16 +107,16 @@ class Simulation:
         """ready : the plan with its integrator, and the machine made ready, where that is done already."""
         refuse_chosen_steps(plan)
         plan, prepared = ready or fitted(plan, prepared_state.prepare(plan.methods))
-        self._plan, self._settings = plan, plan.settings
-        self._prepared: Prepared
-        self._prepared, piece = prepared.in_one_piece()
-        self._motion = motion = self._prepared.motion
+        self._plan, self.settings = plan, plan.settings
+        self.prepared: Prepared
+        self.prepared, piece = prepared.in_one_piece()
+        self._motion = motion = self.prepared.motion
         self._system = system = motion.system
-        loop, own = _endless(self._prepared, plan, whole=piece is not None)
-        self._run: Run = loop.history.record
-        self._advance = prepared_state.BoundEntry(advance, loop.addresses, keep=loop)
-        self._correct = loop.correct
-        kept = remembered(self._run, motion) if piece is None or own is None else [piece, own]
+        self.loop, own = _endless(self.prepared, plan, whole=piece is not None)
+        self._run: Run = self.loop.history.record
+        self._advance = prepared_state.BoundEntry(advance, self.loop.addresses, keep=self.loop)
+        self.pieces = None if piece is None or own is None else (piece, own)
+        kept = self.pieces or remembered(self._run, motion)
         # what is remembered of units but their own memory
         every = [array for unit in system.units for array in unit.arrays]
         self._kept = [*kept, *(array for array in every if array.size and array.dtype != np.uint64)]
@@ -134,8 +139,8 @@ class Simulation:
         self._y, self._previous = self._run.y.data, self._run.previous.data
         self._feeds_back = bool(system.record.control.stabilise[:2].any())
         layout = system.layout
-        self._loads = SharedLoads.of(self._prepared) if are_open(self._prepared) else None
-        self._header = Header(layout, run_attributes(plan.machine, source, self._prepared, plan.settings, plan.reason))
+        self._loads = SharedLoads.of(self.prepared) if are_open(self.prepared) else None
+        self._header = Header(layout, run_attributes(plan.machine, source, self.prepared, plan.settings, plan.reason))
         self._frame = np.zeros((1, layout.width))
         address = int(motion.handle.address)
         self._evaluate = prepared_state.BoundEntry(
@@ -221,8 +226,8 @@ class Simulation:
         return f"the simulation is over: the event `{self.stopped_by}` ended it at t = {self.time:.6g} s"
 
     def _fail(self, status: int) -> None:
-        jam = jam_of(self._prepared, self._settings, self._run) if status in BEFORE_A_JAM else None
-        message, advice, time = failure_of(self._prepared, self._settings, self._run, status, jam)
+        jam = jam_of(self.prepared, self.settings, self._run) if status in BEFORE_A_JAM else None
+        message, advice, time = failure_of(self.prepared, self.settings, self._run, status, jam)
         raise SolveError(message, time=time, advice=advice, result=self.result() if self._recorded else None)
 
     def set_inputs(self, inputs: Mapping[str, float]) -> None:
@@ -246,11 +251,7 @@ class Simulation:
                 changed = True
         if changed:
             self._counter[of_run.RESTART] = 1
-            self._observed = -np.inf
-            self._evaluate.number.value = self._clock[of_run.TIME]
-            status = self._evaluate()
-            if status != OK:
-                self._fail(status)
+            self.moved()
 
     def place(self, coordinates: Mapping[str, float], rates: Mapping[str, float] | None = None) -> None:
         """Give joint coordinates [m, rad] and their rates [m/s, rad/s] other values, with all joints closed.
@@ -293,7 +294,7 @@ class Simulation:
 
     @cached_property
     def _placing(self) -> Placing:
-        return Placing(self._plan.methods, self._prepared)
+        return Placing(self._plan.methods, self.prepared)
 
     def _coordinates(self, values: Mapping[str, float], what: str) -> dict[str, float]:
         """Numbers by joint coordinate. Raises ModelError."""
@@ -313,24 +314,30 @@ class Simulation:
         refuse(faults)
         return out
 
-    def _begin_again(self) -> None:
-        """Evaluate the state, which was not reached by steps, and take the sides of events there."""
+    def moved(self) -> None:
+        """Evaluate the state, which was not reached by steps: another moment of the motion stands in the memory."""
         self._observed = -np.inf
-        time = self._evaluate.number.value = self._clock[of_run.TIME]
+        self._evaluate.number.value = self._clock[of_run.TIME]
         status = self._evaluate()
         if status != OK:
             self._fail(status)
+
+    def _begin_again(self) -> None:
+        """Evaluate the state, which was not reached by steps, and take the sides of events there."""
+        self.moved()
         values = self._run.event_values
         if values.shape[1]:
-            watch.code(self._motion.handle.address, 0, time)
+            watch.code(self._motion.handle.address, 0, self.time)
             values[[of_run.BEFORE, of_run.AFTER]] = self._system.record.watched.value[: values.shape[1]]
             values[of_run.SIDE] = np.sign(values[of_run.BEFORE])
         self._observe()
 
-    def check_inputs(self, inputs: Mapping[str, float]) -> None:
-        """Raise ModelError for a name that is no input or state, and for a value that it cannot have."""
-        for name, value in inputs.items():
-            self._checked(name, value)
+    def check_input(self, name: str, least: float, greatest: float) -> None:
+        """Raise ModelError for a name that is no input or state, and where it cannot have one of two values."""
+        low, high = self._quick_ranges.get(name, NO_RANGE)
+        if not (low <= least and greatest <= high):
+            for value in (least, greatest):
+                self._checked(name, float(value))
 
     @property
     def machine_name(self) -> str:
@@ -372,10 +379,18 @@ class Simulation:
 
     def _view(self, name: str) -> NDArray[np.float64]:
         """The numbers of `name` in the frame of the present state."""
+        return self._selected(self._frame[0], name)
+
+    def columns_of(self, name: str) -> tuple[NDArray[np.intp], bool]:
+        """Where the numbers of `name` stand in a frame; and whether loads that redundant joints share are among them."""
+        shared = self._loads is not None and self._now.selection(name).variable not in UNSHARED
+        return self._selected(np.arange(self._frame.shape[1]), name), shared
+
+    def _selected(self, frame: NDArray[Any], name: str) -> NDArray[Any]:
         found = self._now.selection(name)
         variable = self._now.variables[found.variable]
         sizes = [len(self._now.coordinates[dim]) for dim in variable.dims[1:]]
-        return self._frame[0, variable.columns].reshape(sizes)[(*found.where[1:], ...)]
+        return frame[variable.columns].reshape(sizes)[(*found.where[1:], ...)]
 
     def __contains__(self, name: object) -> bool:
         return name in self._now
@@ -418,6 +433,16 @@ class Simulation:
     def events(self) -> tuple[Occurrence, ...]:
         """The events so far, each with `name`, `time` [s] and `direction`."""
         return tuple(self._events)
+
+    def noted(self, events: Sequence[Occurrence]) -> None:
+        """Note events that came while the motion was made elsewhere."""
+        self._events += events
+
+    @property
+    def places_of_inputs(self) -> dict[str, tuple[bool, int]]:
+        """Of inputs and states by name: whether it is a state, and its place among those of the run or among the functions."""
+        inputs = {name: (False, int(place)) for name, place in self._inputs.items()}
+        return {**{name: (True, place) for name, place in self._states.items()}, **inputs}
 
     @property
     def stopped_by(self) -> str:
@@ -488,7 +513,7 @@ class Simulation:
         before = self.state
         if self._recorded:
             self._memory.forget_after(state.time)
-        prepared_state.carry_over(self._kept, state.arrays, self._prepared, self._run)
+        prepared_state.carry_over(self._kept, state.arrays, self.prepared, self._run)
         for unit, content in zip(self._system.units, state.units, strict=True):
             unit.restore(content)
         self._events = [event for event in self._events if event.time <= state.time]
@@ -507,7 +532,7 @@ class Simulation:
     def _close_again(self) -> None:
         """Close the joints that other lengths have opened."""
         constraints = self._system.record.constraints
-        correct, address = self._correct, self._motion.handle.address
+        correct, address = self.loop.correct, self._motion.handle.address
         motion, time = self._motion, self._clock[of_run.TIME]
         for _ in range(CORRECTIONS):
             motion.evaluate(time, self._run.y)
@@ -524,7 +549,7 @@ class Simulation:
 
     @cached_property
     def _structure(self) -> prepared_state.Structure:
-        return prepared_state.structure_of(self._plan, self._prepared)
+        return prepared_state.structure_of(self._plan, self.prepared)
 
     def copy(self) -> "Simulation":
         """Another one at this moment, which goes on by itself; what was recorded stays with this one."""
@@ -537,7 +562,7 @@ class Simulation:
 
     @cached_property
     def _digest(self) -> str:
-        text = write_machine(self._plan.machine) + json.dumps(self._settings.as_dict(), sort_keys=True, default=str)
+        text = write_machine(self._plan.machine) + json.dumps(self.settings.as_dict(), sort_keys=True, default=str)
         return hashlib.sha256(text.encode()).hexdigest()
 
     def _addresses_of_units(self) -> list[tuple[NDArray[Any], NDArray[Any], NDArray[Any]]]:

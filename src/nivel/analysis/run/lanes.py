@@ -25,7 +25,6 @@ from nivel.kernels.core.status import BUDGET_SPENT, OK
 from nivel.kernels.output.observe import observe
 from nivel.kernels.record.function import CONSTANT
 from nivel.kernels.record.hook import FAMILIES
-from nivel.native.entry import Entry
 from nivel.native.packs import HAS_LANES, LanesWatched, pack_type
 from nivel.native.processor import lane_count
 
@@ -53,9 +52,8 @@ class LaneMemory:
 
     def __init__(self, pieces: Sequence[Piece]) -> None:
         sizes, size = [len(piece) // 8 for piece in pieces], pack_type().itemsize
-        self._pieces = [
-            (each.ctypes.data, each.nbytes, int(n)) for each, n in zip(pieces, np.cumsum([0, *sizes[:-1]]), strict=True)
-        ]
+        firsts = np.cumsum([0, *sizes[:-1]]).tolist()
+        self._pieces = [(each.ctypes.data, each.nbytes, first) for each, first in zip(pieces, firsts, strict=True)]
         room = np.zeros((sum(sizes) + 1) * size, dtype=np.uint8)
         self._packs = room[-room.ctypes.data % size :][: sum(sizes) * size].view(pack_type())
         self.lanes = self._packs.view(np.float64).reshape(-1, lane_count())
@@ -63,11 +61,8 @@ class LaneMemory:
 
     def place(self, array: NDArray[Any]) -> int | None:
         """The first word of an array; None of one that is empty or stands elsewhere."""
-        at = array.ctypes.data
-        found = (
-            (at - start) // 8 + first for start, size, first in self._pieces if array.size and 0 <= at - start < size
-        )
-        return next(found, None)
+        at = array.ctypes.data if array.size else -1
+        return next(((at - start) // 8 + n for start, size, n in self._pieces if 0 <= at - start < size), None)
 
     def on_lanes(self, kind: str, array: NDArray[Any]) -> NDArray[Any]:
         """An array for all machines; what stands elsewhere begins with zeros."""
@@ -87,10 +82,8 @@ class LaneMemory:
 
     def words(self, arrays: Iterable[NDArray[Any]]) -> NDArray[np.intp]:
         """Where arrays stand, but those that do elsewhere."""
-        known = ((first, each) for each in arrays if (first := self.place(each)) is not None)
-        return np.concatenate(
-            [np.zeros(0, np.intp), *(first + np.arange(-(-each.nbytes // 8)) for first, each in known)]
-        )
+        known = (first + np.arange(-(-x.nbytes // 8)) for x in arrays if (first := self.place(x)) is not None)
+        return np.concatenate([np.zeros(0, np.intp), *known])
 
 
 def words_of(pieces: Sequence[Piece]) -> NDArray[np.int64]:
@@ -139,11 +132,6 @@ def unfit_in_steps(sim: Simulation) -> str:
     return f"`{sim.settings.integrator}` remembers earlier steps" if sim.prepared.integrator.multistep else ""
 
 
-def entries_of(sim: Simulation) -> list[Entry]:
-    """The machine code that copies of a simulation in lanes need."""
-    return [*sim.loop.entries_on("packed"), observe.packed]
-
-
 class Lanes:
     """Copies of a machine, no more than there are lanes. inside : (n,) whether each is in its lane, where its motion is then.
 
@@ -159,9 +147,8 @@ class Lanes:
         every = [*leaves(record), *leaves(run)]
         own = [x for x in every if x.role in (Role.STATE, Role.BEGUN) or x.name in (*OF_RUN, *OF_INPUTS)]
         # what copies are is kept from call to call: words that are numbers, and others
-        self._numbers, self._others = (
-            memory.words(x.array for x in own if (x.array.dtype == float) is r) for r in (True, False)
-        )
+        self._numbers = memory.words(x.array for x in own if x.array.dtype == float)
+        self._others = memory.words(x.array for x in own if x.array.dtype != float)
         self._kept = np.zeros((len(self._numbers), lane_count())), np.zeros(len(self._others), dtype=np.int64)
         wholes = memory.words(x.array for x in every if x.array.dtype.kind in "ui" and x.role is not Role.WORKSPACE)
         self._same = np.setdiff1d(wholes, memory.words(run.counter[each : each + 1] for each in COUNTS))
@@ -222,19 +209,18 @@ class Lanes:
         self._as_bytes = self.inside.tobytes()
         self._bits = int.from_bytes(np.packbits(self.inside, bitorder="little").tobytes(), "little")
 
-    def leave(self, lanes: Sequence[int]) -> None:
+    def leave(self, lanes: Sequence[int], *, for_good: bool = False) -> None:
         """Let copies go on as simulations, from where they are. They may come in again at the next call; where others stay inside after
         that one, as a first step, which has none before it to look back at, is another one than theirs."""
         out = np.isin(np.arange(len(self._sims)), lanes)
         self.bring(self.inside & out)
         self.inside[out] = False
         self._note()
-        self._waits[out], self._patience[out] = int(self.inside.any()), 0
-
-    def stay_out(self, lane: int) -> None:
-        """Let one go on as a simulation for good."""
-        self.leave([lane])
-        self._fit[lane] = False
+        self._waits[out], self._patience[out], self._fit[out] = (
+            int(self.inside.any()),
+            0,
+            self._fit[out] & (not for_good),
+        )
 
     def replace(self, lane: int, sim: Simulation) -> None:
         """Have another simulation in place of a copy."""
@@ -350,6 +336,5 @@ class Lanes:
 
 def _fits(sim: Simulation, first: Simulation) -> bool:
     """Whether a copy has arrays and machine code like the first."""
-    arrays = ([*arrays_of(x.prepared.motion.system.record), *arrays_of(x.loop.history.record)] for x in (first, sim))
-    pairs = [*zip(*arrays, strict=True)]
-    return all(a.shape == b.shape and (a.dtype != np.uint64 or (a == b).all()) for a, b in pairs)
+    arrays = ([*arrays_of(each.loop.machine.record), *arrays_of(each.loop.history.record)] for each in (first, sim))
+    return all(a.shape == b.shape and (a.dtype != np.uint64 or (a == b).all()) for a, b in zip(*arrays, strict=True))

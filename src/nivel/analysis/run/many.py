@@ -10,10 +10,11 @@ from nivel.analysis.plan.compilation import build
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.fitting import fitted
-from nivel.analysis.run.lanes import FEWEST, Lanes, entries_of, unfit_in_steps
+from nivel.analysis.run.lanes import FEWEST, Lanes, unfit_in_steps
 from nivel.analysis.run.prepared_state import prepare
 from nivel.analysis.run.stepping import Simulation, Snapshot
 from nivel.errors import Fault, ModelError, SolveError
+from nivel.kernels.output.observe import observe
 from nivel.native.library import missing
 from nivel.native.packs import LanesWatched
 from nivel.native.processor import lane_count
@@ -66,7 +67,7 @@ class Simulations:
             return "it is not asked for" if wanted is False else "there are too few"
         if why := unfit_in_steps(self._each[0]):
             return why
-        entries = entries_of(self._each[0])
+        entries = [*self._each[0].loop.entries_on("packed"), observe.packed]
         if wanted is None and missing(entries):
             return "there is no machine code for it yet: lanes=True compiles it"
         try:
@@ -171,7 +172,7 @@ class Simulations:
             return self._values(name)
         for lanes, part in zip(self._lanes, self._parts, strict=True):
             if part.start <= name % len(self) < part.stop:
-                lanes.stay_out(name % len(self) - part.start)
+                lanes.leave([name % len(self) - part.start], for_good=True)
         return self._each[name]
 
     def _values(self, names: str | tuple[str, ...]) -> NDArray[np.float64]:

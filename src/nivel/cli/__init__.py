@@ -42,7 +42,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
         "nivel.cli.search_command:identify", "Find the values of a machine's parameters from measurements."
     ),
     "handling": CommandPlace("nivel.cli.handling", "Drive a vehicle through standard manoeuvres: numbers, and a page."),
-    "kc": CommandPlace("nivel.cli.kc", "Kinematics and compliance of a suspension: curves, numbers, and a page."),
+    "kc": CommandPlace("nivel.cli.kc", "Kinematics and compliance of a suspension on a rig."),
     "compare": CommandPlace("nivel.cli.compare", "Run many methods and compare their speed and accuracy."),
     "reduce": CommandPlace("nivel.cli.reduce", "Reduce a finite-element model to a flexible body."),
     "view": CommandPlace("nivel.cli.view", "Show a result or move a machine in the browser."),

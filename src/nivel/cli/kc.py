@@ -8,13 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import click
-import numpy as np
 
 from nivel.cli.handling import tell
 from nivel.cli.options import file_argument, json_option, override_option, separated
 from nivel.cli.progress import progress_listener
 from nivel.errors import Fault, ModelError
-from nivel.lazy import nivel
+from nivel.lazy import nivel, numpy
 
 if TYPE_CHECKING:
     from nivel.api import Machine
@@ -91,8 +90,8 @@ def on_rig(machine: Machine, chassis: str | None = None, hold: tuple[str, ...] =
         side, axle = math.copysign(1.0, centre[1]), builder.markers.frame[m][:, 2] * math.copysign(1.0, axes[1, 2])
         point = builder.markers.position[m]
         wheels.append(nivel.report.kc_page.Wheel(tyre.name, body, point, side * axle, side, tyre.radius))
-        off = {name: np.cross(each - centre, axes[:, 2]) for name, each in centres.items() if body in ends[name]}
-        held += [f"{name}.angle" for name, gap in off.items() if np.linalg.norm(gap) < ALIGNED * tyre.radius]
+        off = {name: numpy.cross(each - centre, axes[:, 2]) for name, each in centres.items() if body in ends[name]}
+        held += [f"{name}.angle" for name, gap in off.items() if numpy.linalg.norm(gap) < ALIGNED * tyre.radius]
     joints = [each for each in record.joints if {*ends[each.name]} != {"ground", chassis}]
     if chassis != "ground":
         place = (0.0, 0.0, 0.0)

@@ -85,8 +85,8 @@ class Store:
             self._file, self._space = None, None
             raise ModelError(f"the result file {self.path} cannot be created: {reason_of(error)}") from error
         _write_header(self._file, self._variables, coordinates, header.attributes, 0, _running_chunks)
-        everything = [self._file["time"], *(self._file[name_in_file(variable.name)] for variable, _ in self._variables)]
-        self._chunks = sum(8 * prod(dataset.chunks) + INDEX for dataset in everything)
+        shapes = ((), *(shape for _, shape in self._variables))
+        self._chunks = sum(8 * prod(_running_chunks(shape, 0)["chunks"]) + INDEX for shape in shapes)
         self._file.swmr_mode = True
         self._file.flush()
 
@@ -113,9 +113,9 @@ class Store:
         except OSError as error:
             raise self._given_up(reason_of(error)) from error
         for variable, shape in self._variables:
-            _append(self._file[name_in_file(variable.name)], frames[:, variable.columns].reshape(len(frames), *shape))
+            _append(self._file, variable.name, frames[:, variable.columns].reshape(len(frames), *shape))
         self._file.flush()
-        _append(self._file["time"], frames[:, 0])
+        _append(self._file, "time", frames[:, 0])
         self._file.flush()
         spent = thread_time() - begin
         self._due = perf_counter() + PATIENCE * spent if spent > QUICK else 0.0
@@ -216,7 +216,7 @@ def _write_final(source: StoredContents, path: Path, attributes: Attributes) -> 
         space.ensure(_header_size(both))
         _write_header(new, variables, source.coordinates, both, count, _final_chunks)
         for name in ("time", *source.variables):
-            _copy(source, name, new[name_in_file(name)], space)
+            _copy(source, name, new, space)
     finally:
         new.flush()
         space.close()
@@ -240,12 +240,46 @@ def _write_header(
         scales[dim] = file.create_dataset(dim, data=np.array(names, dtype=object), dtype=h5py.string_dtype())
     for dim, scale in scales.items():
         scale.make_scale(dim)
-    for variable, shape in variables:
-        name, stored = name_in_file(variable.name), {"maxshape": (None, *shape), **layout(shape, count)}
-        dataset = file.create_dataset(name, (count, *shape), "f8", fillvalue=np.nan, **stored)
-        dataset.attrs.update({"units": variable.units, "long_name": variable.long_name})
-        for axis, dim in enumerate(variable.dims):
-            dataset.dims[axis].attach_scale(scales[dim])
+    _Variables(file, scales).create(variables, count, layout)
+
+
+class _Variables:
+    """Creates variables of a file in HDF5's own calls: the properties of a shape are made once, and what refers to a scale is one list.
+
+    h5py's `attach_scale` writes that list again for every variable, which is quadratic in their number.
+    """
+
+    def __init__(self, file: Any, scales: dict[str, Any]) -> None:
+        self.file, self.scales = file, scales
+        self.text = h5py.string_dtype()
+        self.list_of_scales = h5py.special_dtype(vlen=h5py.ref_dtype)
+        self.users: dict[str, list[tuple[Any, int]]] = {dim: [] for dim in scales}
+
+    def create(self, variables: list[tuple[Variable, tuple[int, ...]]], count: int, layout: Any) -> None:
+        """Create `count` empty frames of all of them. `layout(shape, count)` gives their storage."""
+        made: dict[tuple[int, ...], tuple[Any, Any, Any]] = {}  # type, space and properties by shape
+        types = [h5py.h5t.py_create(np.dtype(each), logical=True) for each in (self.text, self.list_of_scales)]
+        scalar = h5py.h5s.create(h5py.h5s.SCALAR)
+        for variable, shape in variables:
+            name = name_in_file(variable.name)
+            if shape in made:
+                own = h5py.h5d.create(self.file.id, name.encode(), *made[shape])
+            else:
+                stored = {"maxshape": (None, *shape), **layout(shape, count)}
+                own = self.file.create_dataset(name, (count, *shape), "f8", fillvalue=np.nan, **stored).id
+                made[shape] = (own.get_type(), own.get_space(), own.get_create_plist())
+            for key, value in (("units", variable.units), ("long_name", variable.long_name)):
+                h5py.h5a.create(own, key.encode(), types[0], scalar).write(np.array(value, dtype=self.text))
+            lists = np.empty(len(variable.dims), dtype=self.list_of_scales)
+            for axis, dim in enumerate(variable.dims):
+                lists[axis] = np.array([self.scales[dim].ref], dtype=h5py.ref_dtype)
+                self.users[dim].append((h5py.h5r.create(own, b".", h5py.h5r.OBJECT), axis))
+            space = h5py.h5s.create_simple(lists.shape)
+            h5py.h5a.create(own, b"DIMENSION_LIST", types[1], space).write(lists)
+        kind = np.dtype([("dataset", h5py.ref_dtype), ("dimension", "u4")])
+        for dim, users in self.users.items():
+            if users:
+                self.scales[dim].attrs.create("REFERENCE_LIST", np.array(users, dtype=kind))
 
 
 def _running_chunks(shape: tuple[int, ...], _count: int) -> dict[str, Any]:
@@ -265,19 +299,27 @@ def _final_chunks(shape: tuple[int, ...], count: int) -> dict[str, Any]:
     return {"chunks": (rows, *sides), "shuffle": True, "compression": "gzip", "compression_opts": COMPRESSION_LEVEL}
 
 
-def _append(dataset: Any, block: NDArray[np.float64]) -> None:
+def _append(file: Any, name: str, block: NDArray[np.float64]) -> None:
+    dataset = h5py.h5d.open(file.id, name_in_file(name).encode())
     start = dataset.shape[0]
-    dataset.resize(start + len(block), axis=0)
-    dataset[start:] = block
+    dataset.set_extent((start + len(block), *block.shape[1:]))
+    _write_rows(dataset, start, block)
+
+
+def _write_rows(dataset: Any, start: int, block: NDArray[np.float64]) -> None:
+    """Write frames from the number `start` on."""
+    place = dataset.get_space()
+    place.select_hyperslab((start, *[0] * (block.ndim - 1)), block.shape)
+    dataset.write(h5py.h5s.create_simple(block.shape), place, np.ascontiguousarray(block, dtype=np.float64))
 
 
 def _copy(source: StoredContents, name: str, new: Any, space: Space) -> None:
     """In parts of whole chunks: a long run need not fit in memory."""
+    dataset = h5py.h5d.open(new.id, name_in_file(name).encode())
     for start in range(0, source.frame_count, FINAL_ROWS):
-        part = slice(start, start + FINAL_ROWS)
-        block = source.read(name, (part,))
+        block = source.read(name, (slice(start, start + FINAL_ROWS),))
         space.ensure(block.nbytes + FINAL_CHUNK)
-        new[part] = block
+        _write_rows(dataset, start, block)
 
 
 def _header_size(attributes: Attributes) -> int:

@@ -5,6 +5,7 @@ import pytest
 
 import nivel
 from exchange_models import joint, link, robot
+from nivel.errors import ModelError
 from nivel.exchange import read_model
 
 BALL = '<collision><origin xyz="0 0 {z}"/><geometry><sphere radius="0.05"/></geometry></collision>'
@@ -140,3 +141,22 @@ def test_friction_below_zero_is_without_limit(tmp_path):
     kept = [each for each in translation.data["forces"].values() if each["type"] == "contact"]
     assert {each["friction"] for each in kept} == {1.0}  # that of the other surface
     assert any("friction below zero is without limit" in each for each in translation.summary())
+
+
+def test_a_robot_whose_meshes_are_all_missing_has_no_ground_and_says_so(tmp_path):
+    solid = '<collision><geometry><mesh filename="no.stl"/></geometry></collision>'
+    parts = link("trunk", 4.0, more=solid), link("arm", 1.0, more=solid), joint("hinge", "revolute", "trunk", "arm")
+    path = written(tmp_path, robot(*parts), "bare.urdf")
+    data = read_model(path, base="free").data
+    assert "ground_plane" not in data.get("markers", {})
+    assert any("meshes of all" in each for each in data["left_out"])
+    assert len(nivel.import_model(path, base="free").record.bodies) == 2
+
+
+def test_a_joint_on_a_link_of_an_included_model_is_refused_with_its_line(tmp_path):
+    base = '<link name="rack"/>'
+    rest = '<include><uri>model://create</uri></include>\n<joint name="hold" type="fixed"><parent>create::base</parent>'
+    model = f'<sdf version="1.6"><model name="m">{base}{rest}<child>rack</child></joint></model></sdf>'
+    path = written(tmp_path, model, "model.sdf")
+    with pytest.raises(ModelError, match=r'(?s)model.sdf:2:.*joint name="hold".*create::base.*includes are not read'):
+        read_model(path)

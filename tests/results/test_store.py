@@ -156,6 +156,20 @@ def test_closing_compresses_in_chunks_along_time(tmp_path):
         assert json.loads(file.attrs["constraint_units"]) == pendulum.ROWS
 
 
+def test_scales_and_variables_refer_to_each_other_as_the_standard_of_dimensions_says(tmp_path):
+    """HDF5 itself calls a scale attached where both say so, DIMENSION_LIST of the variable and REFERENCE_LIST of the scale."""
+    stored(tmp_path / "run.nc")
+    with h5py.File(tmp_path / "run.nc", "r") as file:
+        variables = [each for each in file.values() if not h5py.h5ds.is_scale(each.id)]
+        assert len(variables) > 5
+        for variable in variables:
+            for axis, dim in enumerate(variable.dims):
+                assert h5py.h5ds.get_num_scales(variable.id, axis) == 1
+                assert h5py.h5ds.is_attached(variable.id, dim[0].id, axis)
+        listed = sum(len(each.attrs.get("REFERENCE_LIST", ())) for each in file.values())
+        assert listed == sum(each.ndim for each in variables)
+
+
 def test_closing_leaves_one_file_and_replaces_it_in_one_step(tmp_path):
     path = tmp_path / "run.nc"
     store = Store(path)

@@ -98,9 +98,14 @@ def _pair(mechanism: Mechanism, drawing: Drawing) -> None:
     moving = [each for each in mechanism.solids.values() if mechanism.groups[each.link].first != WORLD]
     if mechanism.stands and moving:
         lowest = min(_lowest(each, np.array([0.0, 0.0, 1.0]), mechanism, drawing) for each in moving)
-        place = Frame(origin=np.array([0.0, 0.0, lowest]))
-        mechanism.solids["ground_plane"] = Solid("ground_plane", WORLD, Look("plane", place))
-        mechanism.notes.change(f"{BELOW}: at z = {lowest:.4g} m")
+        if not np.isfinite(lowest):
+            mechanism.notes.leave(
+                "contacts with the ground: the meshes of all that could touch it are missing", acts=True
+            )
+        else:
+            place = Frame(origin=np.array([0.0, 0.0, lowest]))
+            mechanism.solids["ground_plane"] = Solid("ground_plane", WORLD, Look("plane", place))
+            mechanism.notes.change(f"{BELOW}: at z = {lowest:.4g} m")
     ends_of = [[mechanism.groups[name].first for name in each.bodies] for each in mechanism.connections]
     joined = {frozenset(each) for each in ends_of}
     between_axes = (name for name, each in mechanism.links.items() if each.inertial is None)

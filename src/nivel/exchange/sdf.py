@@ -218,7 +218,8 @@ class _Model:
                 break
             name = self.attached[name]
         if self.prefix + name not in self.mechanism.links:
-            self.document.fault(element, f"<{tag}>: there is no link `{name}`")
+            included = "; models that a model includes are not read" if "::" in name else ""
+            self.document.fault(element, f"<{tag}>: there is no link `{name}`{included}")
         return self.prefix + name
 
     def _joints(self, element: Element) -> list[Connection]:

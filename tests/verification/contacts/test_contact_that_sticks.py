@@ -562,6 +562,21 @@ def test_a_patch_radius_brakes_spin_as_an_evenly_pressed_disc_does():
     assert abs(rates[-1]) < 1e-9
 
 
+def test_a_small_patch_holds_a_large_ring_against_a_torque_without_creep():
+    """Torque below 2/3 R μ N: at rest the rate is zero, however much less the spin yields to r M than the slip yields to F, r²/J ≪ 1/m."""
+    mass, radius, torque = 0.2, 0.03, 0.01
+    assert torque < 2 / 3 * radius * 0.8 * mass * G
+    load = {"type": "torque", "body": "ring", "vector": [0, 0, torque]}
+    model = rolling_ball(patch_radius=radius)
+    model["bodies"] = {"ring": {"mass": mass, "inertia": [0.5, 0.5, 1.0], "position": [0, 0, -mass * G / STIFFNESS]}}
+    model["markers"]["tip"] = {"body": "ring", "position": [0, 0, 2.0], "shape": {"type": "sphere", "radius": 2.0}}
+    model["forces"]["touch"] = touching(0.8, body="tip", plane="floor", patch_radius=radius)
+    model["forces"]["load"] = load
+    r = simulate(model, integrator="dopri5", step=1e-3, duration=0.2)
+    assert np.abs(r.array("ring.angular_velocity")[r.time > 0.1]).max() < 1e-10
+    assert r["force.touch.sticks"][-1] == 1.0
+
+
 def test_moments_of_contact_need_friction_that_sticks():
     for more in ({"rolling_resistance": 0.01}, {"patch_radius": 0.01}):
         with pytest.raises(ModelError, match="belongs to `friction` with `friction_model: stiction`"):

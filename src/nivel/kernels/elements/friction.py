@@ -83,7 +83,8 @@ DIFFERENT = 1e-9
 DEPENDENT = 1e-9
 # S_kk as this share of 1/m is round-off: the motion is prescribed.
 PRESCRIBED = 1e-7
-# So much of the larger S_kk of both tangents of a patch is added to all, where its motion may be prescribed; elsewhere it is taken out.
+# So much of the larger S_kk of both tangents of a patch is added to theirs, and of that of the spin to this, where its motion may be
+# prescribed; elsewhere it is taken out.
 LEAST = 1e-4
 # A driver takes up less than this share of an effort that it does not prescribe the motion of [m/m, rad/m, …]: round-off.
 DRIVEN = 1e-12
@@ -198,11 +199,11 @@ def superpose(machine):
     record = record_at(machine)
     friction, lam = record.friction, record.constraints.lam
     for row in range(lam.shape[0]):
-        total = friction.lam[row]
-        for a in range(active_count(friction)):
-            k = acting(friction, a)
-            total += friction.response[k, row] * friction.force[k]
-        lam[row] = total
+        lam[row] = friction.lam[row]
+    for a in range(active_count(friction)):
+        response, force = friction.response[acting(friction, a)], friction.force[acting(friction, a)]
+        for row in range(lam.shape[0]):
+            lam[row] += response[row] * force
 
 
 @stage
@@ -401,12 +402,12 @@ def want_patch(machine, k, tau, anchor, is_limited):
     more = 1.0 + anchor
     s0, s1, s3 = more * S[k, k], more * S[k, k + 1], more * S[k + 1, k + 1]
     least = LEAST * max(1.0 / friction.mass[k], 1.0 / friction.mass[k + 1])
-    s2, s4, s5 = 0.0, 0.0, 1.0
+    s2, s4, s5, turn = 0.0, 0.0, 1.0, least
     if count == 3 and reach > 0.0:
         b2 = reach * lack_of_patch(machine, k, 2, tau, anchor)
         s2, s4 = more * reach * S[k, k + 2], more * reach * S[k + 1, k + 2]
-        s5 = reach * reach * more * S[k + 2, k + 2]
-    x = limited((s0, s1, s2, s3, s4, s5), least, (b0, b1, b2), limit if is_limited else np.inf)
+        s5, turn = reach * reach * more * S[k + 2, k + 2], LEAST * reach * reach / friction.mass[k + 2]
+    x = limited((s0, s1, s2, s3, s4, s5), (least, turn), (b0, b1, b2), limit if is_limited else np.inf)
     wanted[k], wanted[k + 1] = x[0], x[1]
     if count == 3:
         wanted[k + 2] = reach * x[2]
@@ -534,7 +535,7 @@ def settle_slopes(machine, scale):
 
 @stage
 def newton(machine, anchor, scale):
-    """One Newton step for effort(F) = F, halved while it does not help."""
+    """One Newton step for effort(F) = F, halved while it does not help. Returns whether it does; else it leaves a sweep."""
     record = record_at(machine)
     friction = record.friction
     n = active_count(friction)
@@ -546,11 +547,12 @@ def newton(machine, anchor, scale):
             friction.force[acting(friction, a)] += share * d[a]
         largest, _, _ = residual(machine, anchor, ahead)
         if largest < before:
-            return
+            return True
         for a in range(n):
             friction.force[acting(friction, a)] -= share * d[a]
         share *= 0.5
     sweep(machine, anchor)
+    return False
 
 
 @stage
@@ -568,9 +570,10 @@ def iterate(machine):
     """Efforts that agree with what they cause, from where they are; returns (largest defect, its friction, largest effort)."""
     record = record_at(machine)
     largest, worst, scale = np.inf, 0, 0.0
-    anchored = SWEEPS + STEPS + ANCHORED_STEPS
-    for iteration in range(anchored + (LAST_SWEEPS if has_patches(record) else 0)):
-        anchor = 0.0 if iteration < SWEEPS + STEPS else ANCHOR if iteration < anchored else LAST_ANCHOR
+    free, anchored = SWEEPS + STEPS, SWEEPS + STEPS + ANCHORED_STEPS
+    iteration, last = 0, anchored + (LAST_SWEEPS if has_patches(record) else 0)
+    while iteration < last:
+        anchor = 0.0 if iteration < free else ANCHOR if iteration < anchored else LAST_ANCHOR
         largest, worst, scale = residual(machine, anchor, record.friction.work[DEFECT])
         if largest <= (TOLERANCE if iteration < anchored else 0.1 * ENOUGH) * scale:
             if is_whole(machine):
@@ -578,8 +581,9 @@ def iterate(machine):
             break
         if iteration < SWEEPS or iteration >= anchored:
             sweep(machine, anchor)
-        else:
-            newton(machine, anchor, scale)
+        elif not newton(machine, anchor, scale) and iteration < free:
+            iteration = free - 1  # efforts that hold one motion and contradict each other: nothing but an anchor helps
+        iteration += 1
     return largest, worst, scale
 
 

@@ -158,20 +158,21 @@ def limited(S, least, b, limit):
 
     λ by Newton's iteration for 1/|x|, which comes to it from below (Moré, Sorensen 1983). Where no effort moves anything, S is singular and
     b is round-off, or a motion that is prescribed. So x is what x = T⁻¹ (b + e x) comes to in REFINED turns, with T = S + e + λ and e =
-    `least`: elsewhere it is exact but for (e T⁻¹) to the power of one more than these.
+    `least`, of both tangents and of the spin: elsewhere it is exact but for (e T⁻¹) to the power of one more than these.
     """
     if limit == 0.0:
         return 0.0, 0.0, 0.0
     shift, size = 0.0, 0.0
     x = (0.0, 0.0, 0.0)
     for _ in range(MOST):
-        more = least + shift
-        T = (S[0] + more, S[1], S[2], S[3] + more, S[4], S[5] + more)
+        more = least[0] + shift
+        T = (S[0] + more, S[1], S[2], S[3] + more, S[4], S[5] + least[1] + shift)
         x = solve_three(T, b)
         slope = solve_three(T, x)  # -dx/dλ, by the same turns
         for _ in range(REFINED):
-            x = solve_three(T, (b[0] + least * x[0], b[1] + least * x[1], b[2] + least * x[2]))
-            slope = solve_three(T, (x[0] + least * slope[0], x[1] + least * slope[1], x[2] + least * slope[2]))
+            x = solve_three(T, (b[0] + least[0] * x[0], b[1] + least[0] * x[1], b[2] + least[1] * x[2]))
+            ahead = x[0] + least[0] * slope[0], x[1] + least[0] * slope[1], x[2] + least[1] * slope[2]
+            slope = solve_three(T, ahead)
         size = size_of(x)
         if size <= limit:
             return x

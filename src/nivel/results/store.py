@@ -240,46 +240,38 @@ def _write_header(
         scales[dim] = file.create_dataset(dim, data=np.array(names, dtype=object), dtype=h5py.string_dtype())
     for dim, scale in scales.items():
         scale.make_scale(dim)
-    _Variables(file, scales).create(variables, count, layout)
+    _create_variables(file, scales, variables, count, layout)
 
 
-class _Variables:
-    """Creates variables of a file in HDF5's own calls: the properties of a shape are made once, and what refers to a scale is one list.
-
-    h5py's `attach_scale` writes that list again for every variable, which is quadratic in their number.
-    """
-
-    def __init__(self, file: Any, scales: dict[str, Any]) -> None:
-        self.file, self.scales = file, scales
-        self.text = h5py.string_dtype()
-        self.list_of_scales = h5py.special_dtype(vlen=h5py.ref_dtype)
-        self.users: dict[str, list[tuple[Any, int]]] = {dim: [] for dim in scales}
-
-    def create(self, variables: list[tuple[Variable, tuple[int, ...]]], count: int, layout: Any) -> None:
-        """Create `count` empty frames of all of them. `layout(shape, count)` gives their storage."""
-        made: dict[tuple[int, ...], tuple[Any, Any, Any]] = {}  # type, space and properties by shape
-        types = [h5py.h5t.py_create(np.dtype(each), logical=True) for each in (self.text, self.list_of_scales)]
-        scalar = h5py.h5s.create(h5py.h5s.SCALAR)
-        for variable, shape in variables:
-            name = name_in_file(variable.name)
-            if shape in made:
-                own = h5py.h5d.create(self.file.id, name.encode(), *made[shape])
-            else:
-                stored = {"maxshape": (None, *shape), **layout(shape, count)}
-                own = self.file.create_dataset(name, (count, *shape), "f8", fillvalue=np.nan, **stored).id
-                made[shape] = (own.get_type(), own.get_space(), own.get_create_plist())
-            for key, value in (("units", variable.units), ("long_name", variable.long_name)):
-                h5py.h5a.create(own, key.encode(), types[0], scalar).write(np.array(value, dtype=self.text))
-            lists = np.empty(len(variable.dims), dtype=self.list_of_scales)
-            for axis, dim in enumerate(variable.dims):
-                lists[axis] = np.array([self.scales[dim].ref], dtype=h5py.ref_dtype)
-                self.users[dim].append((h5py.h5r.create(own, b".", h5py.h5r.OBJECT), axis))
-            space = h5py.h5s.create_simple(lists.shape)
-            h5py.h5a.create(own, b"DIMENSION_LIST", types[1], space).write(lists)
-        kind = np.dtype([("dataset", h5py.ref_dtype), ("dimension", "u4")])
-        for dim, users in self.users.items():
-            if users:
-                self.scales[dim].attrs.create("REFERENCE_LIST", np.array(users, dtype=kind))
+def _create_variables(
+    file: Any, scales: dict[str, Any], variables: list[tuple[Variable, tuple[int, ...]]], count: int, layout: Any
+) -> None:
+    """In HDF5's own calls: what variables of one shape share is made once, and so is the list of those that refer to a scale, which h5py's
+    `attach_scale` writes anew for each, with an effort that is quadratic in their number."""
+    made: dict[tuple[int, ...], tuple[Any, Any, Any]] = {}  # type, space and properties by shape
+    users: dict[str, list[tuple[Any, int]]] = {dim: [] for dim in scales}
+    text, references = h5py.string_dtype(), h5py.special_dtype(vlen=h5py.ref_dtype)
+    of_text, of_lists = (h5py.h5t.py_create(np.dtype(each), logical=True) for each in (text, references))
+    scalar = h5py.h5s.create(h5py.h5s.SCALAR)
+    for variable, shape in variables:
+        name = name_in_file(variable.name)
+        if shape in made:
+            own = h5py.h5d.create(file.id, name.encode(), *made[shape])
+        else:
+            stored = {"maxshape": (None, *shape), **layout(shape, count)}
+            own = file.create_dataset(name, (count, *shape), "f8", fillvalue=np.nan, **stored).id
+            made[shape] = (own.get_type(), own.get_space(), own.get_create_plist())
+        for key, value in (("units", variable.units), ("long_name", variable.long_name)):
+            h5py.h5a.create(own, key.encode(), of_text, scalar).write(np.array(value, dtype=text))
+        lists = np.empty(len(variable.dims), dtype=references)
+        for axis, dim in enumerate(variable.dims):
+            lists[axis] = np.array([scales[dim].ref], dtype=h5py.ref_dtype)
+            users[dim].append((h5py.h5r.create(own, b".", h5py.h5r.OBJECT), axis))
+        h5py.h5a.create(own, b"DIMENSION_LIST", of_lists, h5py.h5s.create_simple(lists.shape)).write(lists)
+    kind = np.dtype([("dataset", h5py.ref_dtype), ("dimension", "u4")])
+    for dim, each in users.items():
+        if each:
+            scales[dim].attrs.create("REFERENCE_LIST", np.array(each, dtype=kind))
 
 
 def _running_chunks(shape: tuple[int, ...], _count: int) -> dict[str, Any]:

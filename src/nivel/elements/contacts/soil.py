@@ -183,11 +183,6 @@ class SoilUnit:
             place += each.nbytes
 
 
-def is_on_soil(force: ForceElement) -> bool:
-    """Whether cells of soil bear a force: a track may be on hard ground."""
-    return getattr(force, "soil", None) is not None
-
-
 def add_soil(builder: SystemBuilder, force: Any) -> dict[str, int]:
     """Columns of an element on soil: its first output, the function that says where the cells are, the number of the force among those on
     them, the marker of the plane, and the state that is the time of the last change.
@@ -195,7 +190,7 @@ def add_soil(builder: SystemBuilder, force: Any) -> dict[str, int]:
     Raises ModelError for ground that cannot be soil.
     """
     own = force.plane, force.heights, force.soil
-    others: list[Any] = [*filter(is_on_soil, builder.machine.forces)]
+    others: list[Any] = [each for each in builder.machine.forces if getattr(each, "soil", None) is not None]
     same = [each for each in others if (each.plane, each.heights, each.soil) == own]
     name = f"soil of {same[0].name}"
     if name not in builder.functions.units:

@@ -92,11 +92,8 @@ def shear_belt(machine, index, n, belt, shear_length, ahead, sticks):
     power, pull, lateral, moment, driven, lost, in_x, in_y = o, o, o, o, o, o, o, o
     for j in range(count):
         k = j if real(run) >= 0.0 else count - 1 - j
-        own, x, y = (
-            n[ForceRow.WORK + KEPT * k :],
-            index[ForceRow.SHARES + 2 * k],
-            index[ForceRow.SHARES + 2 * k + 1],
-        )
+        own, shares = n[ForceRow.WORK + KEPT * k :], index[ForceRow.SHARES + 2 * k :]
+        x, y = shares[0], shares[1]
         normal = own[0], own[1], own[2]
         a = cross(normal, f)
         a = times(1.0 / np.sqrt(dot(a, a)), a)
@@ -201,16 +198,13 @@ def resist(machine, index, n, cells, belt, sign, state):
     markers, number = record.markers, cells.number
     middle, f, s, _, length, _ = belt
     m, frame = index[ForceRow.PLANE], markers.body[index[ForceRow.FRONT]]
-    more, work = number[SoilRow.EXPONENT] + 1.0, 0.0 * length
+    cell, more, work = number[SoilRow.CELL], number[SoilRow.EXPONENT] + 1.0, 0.0 * length
     for side in range(2):
         across = (2.0 * side - 1.0) * GAUSS * n[ForceRow.WIDTH]
         _, _, bottom = seen_from_corner(cells, markers, m, beside(middle, f, s, 0.5 * sign * length, across))
-        before = 0.5 * length + UNCUT * number[SoilRow.CELL]
-        x, y, _ = seen_from_corner(cells, markers, m, beside(middle, f, s, sign * before, across))
-        h, rest = (
-            between_nodes(cells.h, number[SoilRow.CELL], x, y),
-            between_nodes(cells.rest, number[SoilRow.CELL], x, y),
-        )
+        before = sign * (0.5 * length + UNCUT * cell)
+        x, y, _ = seen_from_corner(cells, markers, m, beside(middle, f, s, before, across))
+        h, rest = between_nodes(cells.h, cell, x, y), between_nodes(cells.rest, cell, x, y)
         if real(h) > real(bottom):
             pressed = maximum(rest - h, 0.0 * h)
             work += (maximum(rest - bottom, 0.0 * h) ** more - pressed**more) / more

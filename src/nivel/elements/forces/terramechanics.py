@@ -99,20 +99,18 @@ class Track(ForceElement):
 
     type: Literal["track"] = "track"
     contact: TwoMarkers = Field(
-        "markers of the frame: front and rear end of the belt on the ground, the z axis of the first one points out of it"
+        "markers of the frame: front and rear end of the belt below; z of the first one points up"
     )
     sprocket: MarkerPlace = Field("marker on what drives the belt: its z axis is the axle, in either sense")
     radius: PositiveLength = Field("of the sprocket, to the pins of the belt")
     width: PositiveLength = Field("of the belt")
     patches: Whole = Field("along the belt, 2 to 100", default=10)
     plane: MarkerPlace = Field("marker: its point lies in the plane, its z axis points out of it")
-    heights: Maybe[OneRecord[HeightField]] = Field(
-        "of ground that is not flat, along the z axis of the `plane` over its x and y axes", default=None
-    )
+    heights: Maybe[OneRecord[HeightField]] = Field("of ground that is not flat, over the `plane`", default=None)
     soil: Maybe[OneRecord[Soil]] = Field("numbers of the soil", default=None, absent="hard ground")
     grip: Grip = Field("of hard ground: shear by load; a function, of the place `x`, `y` too", default=0.8)
     stiffness: Maybe[PositiveStiffness] = Field(
-        "of the belt on hard ground", default=None, absent="an equal share of all weight presses it in by 1 cm"
+        "on hard ground", default=None, absent="all weight presses belts in by 1 cm"
     )
     damping: Maybe[PositiveDamping] = Field("on hard ground", default=None, absent="10 ms · stiffness")
     shear_length: PositiveLength = Field("on hard ground: sliding after which 63 % of the grip acts", default=0.01)
@@ -163,7 +161,8 @@ def add_track(builder: SystemBuilder, force: Track) -> None:
     """A track, with two shares of each patch, and on soil one of what resists at either end."""
     front, rear, sprocket = map(builder.end, (*force.contact, force.sprocket))
     (body, a, axes), (other, b, _), (turning, _, _) = map(builder.as_placed, (*force.contact, force.sprocket))
-    known, along = builder.machine.body_named, a - b
+    known, along, is_hard = builder.machine.body_named, a - b, force.soil is None
+    bends = any(known[each].flexible for each in {body, turning} & known.keys())
     across = float(np.linalg.norm(np.cross(axes[:, 2], along)))
     weight = STANDARD_GRAVITY * sum(map(mass_of, builder.machine.bodies))
     stiffness = force.stiffness or weight / sum(isinstance(each, Track) for each in builder.machine.forces) / PRESSED_IN
@@ -172,35 +171,30 @@ def add_track(builder: SystemBuilder, force: Track) -> None:
         (body != other or body == GROUND, "contact", "both markers of a belt stand on one body"),
         (across <= LEAST_SINE * float(np.linalg.norm(along)), "contact", upright),
         (turning in (body, GROUND), "sprocket", "the sprocket needs a body that turns on the frame"),
+        (bends, "contact", "a track stands on rigid bodies"),
         (
-            any(known[each].flexible for each in {body, turning} & known.keys()),
-            "contact",
-            "a track stands on rigid bodies",
+            is_hard and stiffness == 0.0,
+            "stiffness",
+            "must be given: no body has a weight of which a share could press the belt in",
         ),
-        (stiffness == 0.0, "stiffness", "must be given: no body has a weight of which a share could press the belt in"),
     ):
         if wrong:
             raise ModelError(Fault.at(f"forces.{force.name}.{key}", message))
-    columns = (
-        add_soil(builder, force) if force.soil is not None else {"output": add_outputs(builder, force, without=ON_SOIL)}
-    )
+    columns = {"output": add_outputs(builder, force, without=ON_SOIL)} if is_hard else add_soil(builder, force)
 
     def share(name: str, text: str, *, follows: bool) -> int:
-        fact = StateFact(
-            f"{force.name}.{name}", "1", f"share of the {text} of {force.name}", 0.0, 1e-2, follows=follows
-        )
-        return builder.own_state(fact)
+        long_name = f"share of the {text} of {force.name}"
+        return builder.own_state(StateFact(f"{force.name}.{name}", "1", long_name, 0.0, 1e-2, follows=follows))
 
-    if force.soil is not None:
+    if not is_hard:
         columns |= {name: share(key, f"resistance {text}", follows=False) for name, key, text in ENDS}
-    heights = force.heights if force.soil is None else None
+    heights = force.heights if is_hard else None
     x, y = ((function.OUTPUT, columns["output"] + tracks.PLACE + k, 0) for k in range(2))
     row = ForceRow.of(
         force,
         front=front,
         rear=rear,
         sprocket=sprocket,
-        plane=builder.end(force.plane),
         grip=builder.function(force.grip, {"x": x, "y": y}),
         uneven=int(heights is not None),
         shares=[
@@ -211,9 +205,9 @@ def add_track(builder: SystemBuilder, force: Track) -> None:
         stiffness=stiffness,
         damping=DAMPING_TIME * stiffness if force.damping is None else force.damping,
         work=[0.0] * tracks.KEPT * force.patches + (numbers_of(heights.heights, heights.size) if heights else []),
-        **{name: value for name, value in columns.items() if name != "plane"},
+        **(columns | {"plane": builder.end(force.plane)}),
     )
-    builder.add(tracks.apply if force.soil is None else apply, row)
+    builder.add(tracks.apply if is_hard else apply, row)
 
 
 LEAST_SINE = 0.1  # of the angle between the belt and the z axis of its first marker

@@ -10,6 +10,7 @@ Anything else that escapes is a defect of nivel.
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, replace
+from math import inf
 from typing import Final
 
 LONGEST: Final = 2000  # characters of a line; names may be of any length
@@ -53,6 +54,24 @@ class Fault:
     def __str__(self) -> str:
         place = f"{self.file}:{self.line}:{self.column}: " if self.line else ""
         return f"{place}{self.path}: {self.message}" if self.path else f"{place}{self.message}"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A sentence about a machine that is right by itself and may be a slip all the same: what stands at a place and what is usual, or fits.
+
+    place : as in a machine file, ``hydraulics.pump.displacement``. number : by how many times a value is beyond what is usual; infinite
+    where that is no matter of its size.
+    """
+
+    place: str
+    text: str
+    number: float = inf
+
+    @property
+    def fault(self) -> Fault:
+        """The same, to be told with its place in the file."""
+        return Fault.at(self.place, self.text)
 
 
 class ModelError(NivelError):

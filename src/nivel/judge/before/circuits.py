@@ -25,32 +25,13 @@ from nivel.elements.circuits.rotary import RotaryMachine
 from nivel.elements.circuits.sections import Section
 from nivel.elements.circuits.spool_valves import SpoolValve
 from nivel.elements.circuits.tanks import Reservoir, Tank, Volume
-from nivel.errors import Fault
+from nivel.errors import Finding
 from nivel.lazy import dataclass
 from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.quantity import PlainVolume
 from nivel.machine.units.tree import ExpressionError, Time, leaves
 from nivel.machine.uses.hydraulic_uses import makers, ports_of
-
-
-@dataclass(frozen=True)
-class Finding:
-    """What stands at a place and what is usual, or fits.
-
-    place : as in a machine file, ``hydraulics.pump.displacement``. number : by how many times a value is beyond what is usual; infinite
-    where that is no matter of its size.
-    """
-
-    place: str
-    text: str
-    number: float = math.inf
-
-    @property
-    def fault(self) -> Fault:
-        """The same, to be told with its place in the file."""
-        return Fault.at(self.place, self.text)
-
 
 Said = Iterator[Finding]
 LOW: Final = 6e5  # Pa; a tank of a constant pressure up to this one takes what returns

@@ -8,8 +8,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.errors import ModelError
-from nivel.judge.before.circuits import Finding
+from nivel.errors import Finding, ModelError
 from nivel.known import Contact
 from nivel.lazy import nivel
 from nivel.machine.bodies.body import Body

@@ -133,7 +133,8 @@ def unfit_in_steps(sim: Simulation) -> str:
 
 
 class Lanes:
-    """Copies of a machine, no more than there are lanes. inside : (n,) whether each is in its lane, where its motion is then.
+    """Copies of a machine, no more than there are lanes. inside : (n,) whether each is in its lane, where its motion is then;
+    time : (n,) [s] of those.
 
     Elsewhere, and where it was brought there, the motion is that of the simulation.
     """
@@ -154,6 +155,7 @@ class Lanes:
         self._same = np.setdiff1d(wholes, memory.words(run.counter[each : each + 1] for each in COUNTS))
         record, run = self._loop.machine, self._loop.run
         self._clock, self._counter = self._of(run.clock), run.counter
+        self.time = self._clock[of_run.TIME, : len(sims)]
         self._kinds, self._values = record.functions.kind, self._of(record.functions.value)
         self._y, self._previous = self._of(run.y), self._of(run.previous)
         self._feedback = self._of(record.control.stabilise)
@@ -175,11 +177,6 @@ class Lanes:
     def _of(packs: NDArray[Any]) -> NDArray[np.float64]:
         """Packs as numbers (…, lanes)."""
         return packs.view(np.float64).reshape(*packs.shape, lane_count())
-
-    @property
-    def time(self) -> NDArray[np.float64]:
-        """(n,) [s]; of those inside."""
-        return self._clock[of_run.TIME, : len(self._sims)]
 
     def go(self, steps: int, inputs: Inputs, alive: NDArray[np.bool_], left: c_uint64) -> NDArray[np.bool_]:
         """So many steps of the copies in lanes, after `inputs` (n,) are set; those of simulations are set already. Returns (n,) which
@@ -216,11 +213,8 @@ class Lanes:
         self.bring(self.inside & out)
         self.inside[out] = False
         self._note()
-        self._waits[out], self._patience[out], self._fit[out] = (
-            int(self.inside.any()),
-            0,
-            self._fit[out] & (not for_good),
-        )
+        self._waits[out], self._patience[out] = int(self.inside.any()), 0
+        self._fit[out] &= not for_good
 
     def replace(self, lane: int, sim: Simulation) -> None:
         """Have another simulation in place of a copy."""
@@ -287,12 +281,11 @@ class Lanes:
     def _give(self, lane: int) -> None:
         """What was kept of a copy, to its simulation."""
         sim = self._sims[lane]
-        run, pieces = sim.loop.history.record, sim.pieces or ()
-        start, words = float(run.clock[of_run.START]), words_of(pieces)
+        run, first = sim.loop.history.record, 0
+        start, words = float(run.clock[of_run.START]), words_of(sim.pieces or ())
         words.view(np.float64)[self._numbers] = self._kept[0][:, lane]
         words[self._others] = self._kept[1]
-        first = 0
-        for piece in pieces:
+        for piece in sim.pieces or ():
             piece.view(np.int64)[:] = words[first : first + len(piece) // 8]
             first += len(piece) // 8
         run.clock[of_run.START] = start

@@ -9,8 +9,11 @@ from scipy.special import ellipj, ellipk
 
 import nivel
 from lanes import tail
+from nivel.analysis.plan.plan import plan_run
+from nivel.machine.settings.run import SimulationSettings
 
-EVERYDAY = Path(__file__).parents[3] / "benchmarks" / "everyday"
+ROOT = Path(__file__).parents[3]
+EVERYDAY, EXAMPLES = ROOT / "benchmarks" / "everyday", ROOT / "examples"
 NAMES = sorted(path.stem for path in EVERYDAY.glob("*.yaml"))
 # how parallel cranks go on where all bars are in line is no question of steps
 NOT_GREEN = {"coupling-rod"}
@@ -165,3 +168,29 @@ def test_stated_errors_are_at_least_a_third_of_the_true_ones():
         found += [ratio for _, ratio, _, _ in ratios(one, one.simulate(verify=True))]
     assert len(found) > 2000
     assert np.mean(np.array(found) >= 1.0 / 3.0) >= 0.95
+
+
+@pytest.mark.parametrize(
+    ("name", "settings", "integrator"),
+    [
+        ("hydraulic-press", {}, "extrapolated-euler"),
+        ("hydraulic-press", {"tolerance": 1e-6}, "radau"),
+        ("hydraulic-press", {"step": 2e-4, "output_interval": 7e-3}, "extrapolated-euler"),
+        ("cantilever", {"tolerance": 1e-6}, "radau"),
+        ("clutch", {"tolerance": 1e-6, "step": 2e-4}, "radau"),
+        ("pendulum", {"tolerance": 1e-6, "output_interval": 7e-3}, "dopri5"),
+    ],
+)
+def test_settings_go_with_a_method_that_has_them(name, settings, integrator):
+    record = machine(name).record
+    plan = plan_run(record.with_simulation(record.simulation.replace(**settings)), set(settings))
+    assert plan.settings.integrator == integrator
+    assert plan.settings.tolerance == (None if integrator == "extrapolated-euler" else settings["tolerance"])
+    assert plan.reason
+
+
+def test_machines_with_gas_begin_with_a_method_that_chooses_its_steps_but_step_by_step():
+    record = nivel.load(EXAMPLES / "hydraulics" / "pneumatic-pusher.yaml").record
+    kept = SimulationSettings(duration=record.simulation.duration)
+    assert plan_run(record.replace(simulation=kept)).settings.integrator == "radau"
+    assert plan_run(record.replace(simulation=kept), stepwise=True).settings.integrator == "extrapolated-euler"

@@ -203,3 +203,30 @@ def test_numbers_over_time_of_a_short_pulse_are_right_or_open():
         found = row.outputs[name]
         assert abs(found.value - wanted) < max(found.doubt, 1e-3 * sizes[name])
         assert found.doubt > 0.0
+
+
+SWUNG = """
+format: 1
+gravity: [0, 0, 0]
+bodies: {a: {mass: 1, inertia: [0.1, 0.1, 0.1], position: [1, 0, 0]}}
+joints: {r: {type: revolute, bodies: [ground, a], point: [0, 0, 0], axis: [0, 0, 1], start_rates: {angle: 2}}}
+forces: {wall: {type: stop, coordinate: r, upper: 0.53, stiffness: 1e6, restitution: 1}}
+simulation: {duration: 0.6}
+"""
+
+
+@pytest.mark.parametrize(
+    ("interval", "settings"), [(1e-2, {}), (1e-2, {"integrator": "rk4", "step": 5e-5}), (1e-4, {})]
+)
+def test_loads_of_a_blow_that_no_frame_shows_are_open(interval, settings):
+    """The stop brings 2 J ω √(K/J) to an arm with J = 1.1 kg m², of which the hinge bears 1/1.1 m; it lasts 3.3 ms."""
+    result = nivel.Machine.from_record(parse_machine(SWUNG)).simulate(verify=True, output_interval=interval, **settings)
+    hinge = 2.0 * np.sqrt(1e6 / 1.1)
+    loads, found = result.reactions(), float(result.reactions().peak_force[0])
+    if interval < 1e-3:
+        assert found == pytest.approx(hinge, rel=2e-3)
+        return
+    assert found < 0.01 * hinge
+    for each in (loads, result.powers(), result.cycles("r.force.x")):
+        assert each.attrs["verdict"] != "green"
+        assert "a blow between frames, on a at t = 0.26 s" in str(each.attrs["headline"])

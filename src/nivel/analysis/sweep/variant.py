@@ -18,9 +18,10 @@ from nivel.analysis.sweep.variant_runs import JudgedRuns, Ran, VariantRuns, anal
 from nivel.analysis.sweep.variants import Variants
 from nivel.errors import ModelError, retold
 from nivel.lazy import dataclass, field, replace
-from nivel.machine.study.parameter import Output
+from nivel.machine.study.parameter import Output, Reduced
 from nivel.native.processor import lane_count
 from nivel.results.analyses.linear_model import LinearModel
+from nivel.results.curve import RATES, blow_between_frames
 from nivel.results.result import Result
 
 FAILED, NOT_RUN = "failed", "not run"
@@ -108,6 +109,13 @@ def _with_outputs(ran: Ran, task: Task) -> VariantRun:
             failures.append(str(error))
     told: dict[str, Any] = {"outcome": FAILED, "reason": "; ".join(failures)} if failures else {}
     lacks = [f"{name}, which {number.lacks}" for name, number in numbers.items() if number.doubt]
+    reduced = [output.of for name, output in task.outputs.items() if name in numbers and isinstance(output, Reduced)]
+    if (
+        run.verdict
+        and isinstance(found, Result)
+        and any(found.selection(name).variable not in RATES for name in reduced)
+    ):
+        lacks += filter(None, [blow_between_frames(found)])
     if lacks and run.verdict:
         trust = found.trust.of_derived(*lacks)
         told |= {"verdict": trust.light, "verified": trust.verified, "headline": trust.headline}

@@ -229,4 +229,4 @@ def test_loads_of_a_blow_that_no_frame_shows_are_open(interval, settings):
     assert found < 0.01 * hinge
     for each in (loads, result.powers(), result.cycles("r.force.x")):
         assert each.attrs["verdict"] != "green"
-        assert "a blow between frames, on a at t = 0.26 s" in str(each.attrs["headline"])
+        assert "an impact between frames, on a at t = 0.26 s" in str(each.attrs["headline"])

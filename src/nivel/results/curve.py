@@ -32,7 +32,7 @@ RATES: Final = {
 INTEGRALS: Final = {rate: name for name, rate in RATES.items()}
 TOLD: Final = 1e-3  # of the range of a curve: a doubt about a number made from it that is said
 ROUNDED: Final = 1e-9  # of the largest magnitude: a doubt that is round-off
-BLOW: Final = 0.1  # of the largest acceleration of all frames: a mean one between two frames that these do not show
+IMPACT: Final = 0.1  # of the largest acceleration of all frames: a mean one between two frames that these do not show
 QUARTERS: Final = (0.25, 0.5, 0.75)
 PROBED: Final = "between_frames"  # attribute of a result: JSON, by variable what its numbers are apart from their curves between frames
 
@@ -158,10 +158,10 @@ def curve_of(result: Result, name: str) -> Curve:
     return out.doubted(shaped[found.where[1:]].reshape(-1))
 
 
-def blow_between_frames(result: Result) -> str:
+def impact_between_frames(result: Result) -> str:
     """In words, the fastest change of velocities between two frames that accelerations at these do not show; empty where there is none.
 
-    Δv - ½ h (a + b), over h: where it is above BLOW of the largest acceleration, forces and reactions go beyond what frames show of them.
+    Δv - ½ h (a + b), over h: where it is above IMPACT of the largest acceleration, forces and reactions go beyond what frames show of them.
     """
     frames = result.time
     if result.is_statics or len(frames) < 2:
@@ -174,10 +174,10 @@ def blow_between_frames(result: Result) -> str:
         missed = np.abs(np.diff(value, axis=0) - 0.5 * h * (slope[1:] + slope[:-1]))
         by_time = np.divide(missed, h, out=np.zeros_like(missed), where=h > 0.0)
         by_time[missed < TOLD * np.max(np.abs(value), initial=0.0)] = 0.0
-        if by_time.size and (most := np.nanmax(by_time)) > BLOW * np.nanmax(np.abs(slope)):
+        if by_time.size and (most := np.nanmax(by_time)) > IMPACT * np.nanmax(np.abs(slope)):
             k, body, _ = np.unravel_index(np.nanargmax(by_time), by_time.shape)
             where = f"{result.coordinates['body'][body]} at t = {frames[k]:.6g} s"
-            return f"a blow between frames, on {where}, of {most:.3g} {result.units(rate)} or more, which frames do not show"
+            return f"an impact between frames, on {where}, of {most:.3g} {result.units(rate)} or more, which frames do not show"
     return ""
 
 

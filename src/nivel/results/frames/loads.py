@@ -13,9 +13,9 @@ from nivel.results.curve import (
     TOLD,
     Curve,
     Number,
-    blow_between_frames,
     curve,
     curve_of,
+    impact_between_frames,
     integral,
     integral_of_magnitude,
     largest,
@@ -24,7 +24,6 @@ from nivel.results.curve import (
     probed,
     turning_values,
 )
-from nivel.results.trust import Trust
 
 
 def reactions(result: Result) -> "xarray.Dataset":
@@ -45,7 +44,7 @@ def reactions(result: Result) -> "xarray.Dataset":
         values[f"peak_{word}"] = (("joint",), highest.value, {"units": unit})
         values[f"peak_{word}_time"] = (("joint",), highest.time, {"units": "s"})
         values[f"rms_{word}"] = (("joint",), np.sqrt(np.maximum(square.value, 0.0)), {"units": unit})
-    attributes = _trust(result, lacks).attributes()
+    attributes = result.trust.of_derived(*_open(result, lacks)).attributes()
     return xarray.Dataset(values, coords={"joint": list(result.coordinates["joint"])}, attrs=attributes)
 
 
@@ -94,12 +93,14 @@ def powers(result: Result, period: float | str | None = None) -> "xarray.Dataset
         lacks += _open_work(work, both, elements)
         values["work_per_cycle"] = (dims, work.value, {"units": "J"})
         values["mean_power"] = (dims, work.value / period, {"units": "W"})
-    return xarray.Dataset(values, coords={"element": elements}, attrs=_trust(result, lacks).attributes())
+    return xarray.Dataset(
+        values, coords={"element": elements}, attrs=result.trust.of_derived(*_open(result, lacks)).attributes()
+    )
 
 
-def _trust(result: Result, lacks: list[str]) -> Trust:
-    """The trust report of loads of a result, of which a blow that frames do not show is open too."""
-    return result.trust.of_derived(*lacks, *filter(None, [blow_between_frames(result)]))
+def _open(result: Result, lacks: list[str]) -> list[str]:
+    """What is open of loads, with an impact that frames do not show."""
+    return [*lacks, *filter(None, [impact_between_frames(result)])]
 
 
 def _open_work(work: Number, both: Number, names: Sequence[str]) -> list[str]:
@@ -148,7 +149,7 @@ def cycles(result: Result, name: str, *, repeating: bool = False) -> "xarray.Dat
     }
     is_open = of.is_told(np.max(of.doubt, axis=0, initial=0.0))[0]
     lacks = [f"{name} between frames, where cycles may be larger"] * int(is_open)
-    return xarray.Dataset(data, attrs={"signal": name, **_trust(result, lacks).attributes()})
+    return xarray.Dataset(data, attrs={"signal": name, **result.trust.of_derived(*_open(result, lacks)).attributes()})
 
 
 def _whole(found: list[Cycle]) -> list[Cycle]:

@@ -20,7 +20,7 @@ from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.varying_value import Table
 from nivel.machine.units.formula import formula, linear
-from nivel.machine.units.quantity import Duration
+from nivel.machine.units.quantity import Duration, listed
 
 FOUND = 0.2  # τ [s]
 FEWEST = 3  # points of a course
@@ -38,7 +38,7 @@ class VehicleDriver(Block):
     target: Input = Field("speed to be held; zero or less: the brake is 1", default=0.0)
     gain: PositiveNumber = Field("pedal, up to 1, by missing speed, s/m", default=0.5)
     steering: Maybe[Input] = Field("angle of the front wheels, in place of a `course`", default=None)
-    course: Maybe[Annotated[Matrix, BeforeValidator(list)]] = Field(
+    course: Maybe[Annotated[Matrix, BeforeValidator(listed)]] = Field(
         "points `[x, y]` from the start on, in m; a cubic spline goes through them", default=None
     )
     x: Maybe[Input] = Field("with a `course`: measured place", default=None)

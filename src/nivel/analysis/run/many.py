@@ -192,8 +192,9 @@ class Simulations:
                 singly[part] = True
             else:
                 out[part] = frame[: part.stop - part.start, columns]
-        for k in singly.nonzero()[0]:
-            out[k] = np.concatenate([np.zeros(0), *(np.ravel(self._each[k][name]) for name in several)]).reshape(shape)
+        for k in singly.nonzero()[0].tolist():
+            sim = self._each[k]
+            out[k] = sim[names] if isinstance(names, str) else [x for name in several for x in np.ravel(sim[name])]
         return out
 
     @property

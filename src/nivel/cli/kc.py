@@ -98,7 +98,10 @@ def on_rig(machine: Machine, chassis: str | None = None, hold: tuple[str, ...] =
         joints.append(nivel.Joint(name="kc_rig", type="fixed", bodies=("ground", chassis), point=place))
     driven = {each.coordinate for each in record.drivers}
     free = [each for each in dict.fromkeys(held) if not driven & {each, each.partition(".")[0]}]
-    locks = [nivel.Driver(name=f"kc_{k}", coordinate=each, value=0.0, from_start=True) for k, each in enumerate(free)]
+    locks = [
+        nivel.elements.joints.drivers.Driver(name=f"kc_{k}", coordinate=each, value=0.0, from_start=True)
+        for k, each in enumerate(free)
+    ]
     still = {*held, *(each.partition(".")[0] for each in held)}  # what acts there, as brakes do, moves nothing
     forces = [each for each in record.forces if each.type != "tyre" and getattr(each, "coordinate", None) not in still]
     return machine.replace(joints=joints, drivers=[*record.drivers, *locks], forces=forces, control=[]), wheels
@@ -122,7 +125,7 @@ def measured(rig: Machine, wheels: list[Wheel], case: str, size: float, listener
         moment = [way(aside * wheel.radius), way(-ahead * wheel.radius), way(turning)]
         added += [
             nivel.Marker(name=name, body=wheel.body, position=tuple(wheel.point)),
-            nivel.Driver(name=name, marker=name, along="z", value=way(height), from_start=True),
+            nivel.elements.joints.drivers.Driver(name=name, marker=name, along="z", value=way(height), from_start=True),
             nivel.PointForce(name=f"{name}_force", marker=name, vector=force),
             nivel.Torque(name=f"{name}_moment", body=wheel.body, vector=moment),
         ]

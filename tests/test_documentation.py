@@ -184,6 +184,7 @@ def test_every_key_of_a_force_has_its_row_with_its_default(force):
         "Stops, friction and contact",
         "Tyres",
         "Soil",
+        "Tracks",
     )
     assert set(force.outputs) <= {word for title in titles for word in words(section(title))}
 

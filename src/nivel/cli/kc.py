@@ -95,7 +95,9 @@ def on_rig(machine: Machine, chassis: str | None = None, hold: tuple[str, ...] =
     joints = [each for each in record.joints if {*ends[each.name]} != {"ground", chassis}]
     if chassis != "ground":
         place = (0.0, 0.0, 0.0)
-        joints.append(nivel.Joint(name="kc_rig", type="fixed", bodies=("ground", chassis), point=place))
+        joints.append(
+            nivel.elements.joints.joint.Joint(name="kc_rig", type="fixed", bodies=("ground", chassis), point=place)
+        )
     driven = {each.coordinate for each in record.drivers}
     free = [each for each in dict.fromkeys(held) if not driven & {each, each.partition(".")[0]}]
     locks = [
@@ -124,10 +126,10 @@ def measured(rig: Machine, wheels: list[Wheel], case: str, size: float, listener
         force = [way(ahead), way(aside), 0.0]
         moment = [way(aside * wheel.radius), way(-ahead * wheel.radius), way(turning)]
         added += [
-            nivel.Marker(name=name, body=wheel.body, position=tuple(wheel.point)),
+            nivel.machine.core.marker.Marker(name=name, body=wheel.body, position=tuple(wheel.point)),
             nivel.elements.joints.drivers.Driver(name=name, marker=name, along="z", value=way(height), from_start=True),
-            nivel.PointForce(name=f"{name}_force", marker=name, vector=force),
-            nivel.Torque(name=f"{name}_moment", body=wheel.body, vector=moment),
+            nivel.elements.forces.loads.PointForce(name=f"{name}_force", marker=name, vector=force),
+            nivel.elements.forces.loads.Torque(name=f"{name}_moment", body=wheel.body, vector=moment),
         ]
     run = rig.with_elements(*added).statics(duration=len(nodes) - 1.0, step=1.0, listener=listener)
     return nivel.report.kc_page.Curves.of(run, wheels, size)

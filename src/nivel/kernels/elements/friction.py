@@ -63,6 +63,8 @@ HOLDS, SLID, CANNOT = 0.0, 1.0, 2.0
 # Gauss–Seidel sweeps, then Newton steps, then anchored ones, then, where there are patches, sweeps that are anchored more; efforts agree to
 # TOLERANCE, and must to ENOUGH.
 SWEEPS, STEPS, ANCHORED_STEPS, LAST_SWEEPS = 12, 12, 40, 400
+# After so many Newton steps that do not help, efforts that hold one motion contradict each other: nothing but an anchor does.
+TRIES = 3
 # Newton steps for the slopes: each leaves a millionth of what they are wrong by.
 SETTLING = 2
 TOLERANCE, ENOUGH = 1e-12, 1e-7
@@ -571,7 +573,7 @@ def iterate(machine):
     record = record_at(machine)
     largest, worst, scale = np.inf, 0, 0.0
     free, anchored = SWEEPS + STEPS, SWEEPS + STEPS + ANCHORED_STEPS
-    iteration, last = 0, anchored + (LAST_SWEEPS if has_patches(record) else 0)
+    failed, iteration, last = 0, 0, anchored + (LAST_SWEEPS if has_patches(record) else 0)
     while iteration < last:
         anchor = 0.0 if iteration < free else ANCHOR if iteration < anchored else LAST_ANCHOR
         largest, worst, scale = residual(machine, anchor, record.friction.work[DEFECT])
@@ -581,8 +583,10 @@ def iterate(machine):
             break
         if iteration < SWEEPS or iteration >= anchored:
             sweep(machine, anchor)
-        elif not newton(machine, anchor, scale) and iteration < free:
-            iteration = free - 1  # efforts that hold one motion and contradict each other: nothing but an anchor helps
+        elif not newton(machine, anchor, scale):
+            failed += 1
+            if failed == TRIES and iteration < free:
+                iteration = free - 1
         iteration += 1
     return largest, worst, scale
 

@@ -112,10 +112,12 @@ import nivel.elements.contacts.heights
 import nivel.elements.contacts.on_soil
 import nivel.elements.contacts.shapes
 import nivel.elements.forces
+import nivel.elements.forces.loads
 import nivel.elements.forces.ropes
 import nivel.elements.joints
 import nivel.elements.joints.couplings
 import nivel.elements.joints.drivers
+import nivel.elements.joints.joint
 import nivel.elements.joints.on_beams
 import nivel.exchange
 import nivel.exchange.gltf_writer
@@ -183,6 +185,7 @@ import nivel.looks.circuit.drawing
 import nivel.looks.circuit.power_flow
 import nivel.machine
 import nivel.machine.core
+import nivel.machine.core.marker
 import nivel.machine.core.orientation
 import nivel.machine.core.record
 import nivel.machine.settings

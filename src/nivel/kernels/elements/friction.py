@@ -548,7 +548,7 @@ def newton(machine, anchor, scale):
         for a in range(n):
             friction.force[acting(friction, a)] += share * d[a]
         largest, _, _ = residual(machine, anchor, ahead)
-        if largest < before:
+        if largest < before or anchor > 0.0:  # at a limit the step is right only on its other side
             return True
         for a in range(n):
             friction.force[acting(friction, a)] -= share * d[a]

@@ -122,7 +122,7 @@ SHEET_STYLE = """
 .md-content__inner:has(.sheet){padding-top:0}
 .md-content__inner:has(.sheet)::before{display:none}
 .md-content__inner:has(.sheet) h1{margin:0 0 2px;font-size:15px}
-.sheet{columns:6;column-gap:8px;column-rule:1px solid var(--md-default-fg-color--lightest);font-size:8px;line-height:1.05}
+.sheet{columns:6;column-gap:8px;column-rule:1px solid var(--md-default-fg-color--lightest);font-size:8px;line-height:1.02}
 .md-typeset .sheet h4{margin:2px 0 0;font-size:8.8px;line-height:1.2;font-weight:700;color:var(--md-accent-fg-color);break-after:avoid}
 .md-typeset .sheet p.key{margin:0;padding-left:7px;text-indent:-7px}
 .md-typeset .sheet code{font-size:8px;padding:0;background:none;font-weight:700;color:var(--md-primary-fg-color)}

@@ -178,7 +178,7 @@ def boxed(path):
     """An example whose pump, check valves and directional valves are of types that have no symbol."""
     record = record_of(path)
     for component in record["hydraulics"]:
-        if component["type"] in ("pump", "check-valve", "directional-valve", "load-sensing", "line"):
+        if component["type"] in ("pump", "check-valve", "directional-valve", "load-sensing", "line", "flow-source"):
             component["type"] = f"other-{component['type']}"
     return record
 

@@ -116,6 +116,8 @@ OTHERS = {
 }
 
 
+# within the reach of a wheel at x = -0.5
+KERB = {"size": [6, 6], "function": "0.12*step(x, -0.3, 0, -0.2, 1)", "points": [61, 61]}
 HILLS = {"size": [6, 6], "function": "0.25 + 0.1*sin(2*x) + 0.07*cos(3*y)", "points": [13, 15]}
 EGG = {"type": "ellipsoid", "semi_axes": [0.4, 0.3, 0.25]}
 
@@ -308,6 +310,7 @@ CASES = {
     "tyre": Case({**TYRE, **ROLLS}, ("c", "", [-0.5, 0.9, 0.1]), True),
     "tyre of a file": Case({**TYRE, "magic": MAGIC}, ("c", "", [-0.5, 0.9, 0.1]), True),
     "tyre on a body": Case({**TYRE, "plane": "eye", "grip": 0.5}, ("c", "b", [0.05, 0.02, 0.15]), True),
+    "tyre before a kerb": Case({**TYRE, "heights": KERB}, ("c", "", [-0.5, 0.9, 0.4]), True),
     "tyre on heights": Case({**TYRE, "heights": HILLS, "grip": "0.6 + 0.3*sin(x + 2*y + time)"}, ("c", "", [-0.5, 0.9, 0.4]), True),
     "tyre, off the ground": Case(TYRE, ("c", "", [-0.5, 0.9, 1.4]), False),
     "wheel on soil": Case({"type": "soil-wheel", "wheel": {"body": "c", "axis": [0.1, 1, 0.2]}, "radius": 0.3, "width": 0.2, **SOIL},

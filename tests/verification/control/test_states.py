@@ -339,7 +339,6 @@ FAULTS = [
     ({"x": {"update": "time", "event": "none"}}, "there is no event `none`"),
     ({"x": {"rate": "state.x"}}, "the value of the state `x` is written `x.value`"),
     ({"x": {"rate": "x.pressure"}}, "`x` has no `pressure`"),
-    ({"x": {"rate": "-x"}}, "x"),
     ({"x": {"rate": "1", "scale": -1}}, "a number greater than zero was expected"),
     ({"x": {"rate": "1", "strat": 1}}, "start"),
 ]

@@ -18,11 +18,13 @@ from nivel.cli.live import introduction
 from nivel.cli.replay import command
 from nivel.errors import ModelError, SolveError
 from nivel.files.reader import parse_machine
-from nivel.integrate.loop.paced import DONE, NEXT, SAVED, STRETCHED
+from nivel.integrate.loop.paced import DONE, MODE, NEXT, SAVED, STRETCHED
 from nivel.live.opening import session_of
 from nivel.live.preparation import grip, live_plan, pace_of
+from nivel.live.recorder import Recorder
 from nivel.live.recording import Recording, Take, about_run, read_recording
 from nivel.live.replay import machine_of, replay
+from nivel.live.shared import STARTING
 
 
 @pytest.fixture(scope="module")
@@ -359,3 +361,18 @@ def test_a_running_machine_that_goes_back_to_its_start_loses_no_frame(monkeypatc
         times = np.array([frame[0] for frame in session.history.after(0)[1]])
     assert times[0] == 0.0
     np.testing.assert_allclose(np.diff(times), session.pace.every * session.pace.tick, rtol=1e-6)
+
+
+def test_the_first_frame_is_seen_however_late_frames_are_gathered(monkeypatch):
+    """The solver counts frames of ticks that leave no trace, and begins anew: who counted with it would wait for ever."""
+    begin = Recorder.__init__
+
+    def late(self, live, *more):
+        end = time.monotonic() + 2.0
+        while int(live.control[MODE]) == STARTING and time.monotonic() < end:
+            time.sleep(0.01)
+        begin(self, live, *more)
+
+    monkeypatch.setattr(Recorder, "__init__", late)
+    with running() as session:
+        until(lambda: session.newest is not None, "the first frame")

@@ -82,8 +82,9 @@ class Session:
                 self.soils = soils_in(self._memory.buf, sizes, self.facts["grounds"])
                 for array in self.live:
                     array[...] = 0
-                self._pipe.send(self._memory.name)
+                # before the solver has the memory: it counts frames of its first ticks, which leave no trace
                 self.recorder = Recorder(self.live, pace, journal)
+                self._pipe.send(self._memory.name)
                 self._await_start()
                 self._hear()
             finally:

@@ -154,26 +154,28 @@ def subdivision(settings: RunSettings, between_samples: int) -> tuple[int, int]:
     Where that gives fewer frames than estimates are kept at, errors of the first steps would be missed: then all frames are compared.
     So it is where multistep methods begin anew after every second step, since what begins them has an error of its own.
     """
-    every = settings.every
-    few = steps_between(between_samples)
+    every, multistep = settings.every, INTEGRATORS[settings.integrator].multistep
+    few = steps_between(between_samples, 0 if multistep else every)
     if between_samples:
         coarse = lcm(few, every)
         fine = max(few + 1, round(FINER * few)) * (coarse // few)
     else:
         coarse = ceil(LEAST_STEPS / every) * every
         fine = ceil(FINER * coarse)
-    begins_anew = few < LEAST_STEPS and INTEGRATORS[settings.integrator].multistep
+    begins_anew = few < LEAST_STEPS and multistep
     if begins_anew or (coarse > every and settings.steps < TIMES * coarse):
         return every, FINEST * every
     return coarse, fine
 
 
-def steps_between(samples: int) -> int:
-    """The least part of `samples` steps with three of them or more: one in so many ends where a finer one does. Else 2 or 1."""
+def steps_between(samples: int, every: int = 0) -> int:
+    """A part of `samples` steps of which one ends where a finer one does: the least with three steps or more, else 2 or 1. Where frames are
+    `every` so many steps, it is 2 if that meets more of them."""
     if not samples:
         return LEAST_STEPS
     parts = [few for few in range(1, MOST_OF_SAMPLES + 1) if samples % few == 0]
-    return next((few for few in parts if few >= LEAST_STEPS), parts[-1])
+    least = next((few for few in parts if few >= LEAST_STEPS), parts[-1])
+    return 2 if 2 in parts and lcm(2, every) < lcm(least, every) else least
 
 
 def most_work(first: float, states: int) -> float:

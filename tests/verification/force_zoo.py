@@ -117,7 +117,7 @@ OTHERS = {
 
 
 # within the reach of a wheel at x = -0.5
-KERB = {"size": [6, 6], "function": "0.12*step(x, -0.3, 0, -0.2, 1)", "points": [61, 61]}
+KERB = {"size": [6, 6], "function": "0.15 + 0.12*step(x, -0.3, 0, -0.2, 1)", "points": [61, 61]}
 HILLS = {"size": [6, 6], "function": "0.25 + 0.1*sin(2*x) + 0.07*cos(3*y)", "points": [13, 15]}
 EGG = {"type": "ellipsoid", "semi_axes": [0.4, 0.3, 0.25]}
 

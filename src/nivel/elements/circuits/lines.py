@@ -110,8 +110,9 @@ class Line(Component):
         if self.model == "delay" and self.diameter_B is not None:
             yield superfluous("diameter_B", "belongs to `model: segments`; waves keep their size in one diameter")
         if self.model == "segments":
-            for key in sorted(self.model_fields_set & {"sample_time", "mean_pressure"}):
-                yield superfluous(key, "belongs to `model: delay`")
+            for key in ("sample_time", "mean_pressure"):
+                if getattr(self, key) != type(self).model_fields[key].default:
+                    yield superfluous(key, "belongs to `model: delay`")
         if not 1 <= self.segments <= MOST_SEGMENTS:
             yield Problem(("segments",), f"1 to {MOST_SEGMENTS} segments were expected, got {self.segments}")
         if self.expansion is not None and self.wall_modulus is not None:

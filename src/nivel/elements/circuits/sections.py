@@ -150,7 +150,8 @@ class Section(Rated):
                 yield superfluous("ports", "LS belongs to a section with a compensator")
             else:
                 yield Problem((), "port LS is missing: the compensator reads the load-sensing pressure; write `LS: ls`")
-        if "margin" in self.model_fields_set and (self.open_centre or self.compensation == "none"):
+        usual = type(self).model_fields["margin"].default
+        if self.margin != usual and (self.open_centre or self.compensation == "none"):
             yield superfluous("margin", "belongs to a section with a compensator")
         if self.saturation_share is not None and _feed(self) != "pre":
             yield superfluous("saturation_share", "belongs to `compensation: pre`; post shares the flow by itself")

@@ -34,9 +34,13 @@ def zeros(names: str, *shape: int) -> dict[str, Any]:
 def empty(record_class: type[AnyRecord]) -> AnyRecord:
     """A record without numbers: all its arrays are empty."""
     kinds = (get_args(kind) for kind in get_type_hints(record_class, include_extras=True).values())
-    return record_class(
-        *(np.zeros((0,) * dimensions, get_args(get_args(array)[1])[0]) for array, dimensions, _ in kinds)
-    )
+    return record_class(*(np.zeros((0,) * dimensions, _number_type(array)) for array, dimensions, _ in kinds))
+
+
+def _number_type(array: Any) -> Any:
+    """That of NDArray[…]: of its type of data, or from NumPy 2.5 on of the alias itself."""
+    last = get_args(array)[-1]
+    return (get_args(last) or (last,))[0]
 
 
 OVER_HEIGHTS: Final = "nivel.elements.contacts.heights:apply_over_heights"

@@ -56,7 +56,7 @@ class Simulations:
         self._inside = np.zeros(len(plans), dtype=bool)
         self.not_in_lanes = self._unfit(lanes, listener)
         if lanes and self.not_in_lanes:
-            raise ModelError(Fault.at("lanes", f"copies cannot go in lanes: {self.not_in_lanes}"))
+            raise ModelError(f"copies cannot go in lanes: {self.not_in_lanes}")
         count, end = lane_count(), 0 if self.not_in_lanes else len(self)
         self._parts = [slice(first, min(first + count, end)) for first in range(0, end, count)]
         self._lanes = [Lanes(self._each[part], self._inside[part]) for part in self._parts]

@@ -1,18 +1,20 @@
 """Records without numbers: their arrays have the types and dimensions that the record says, however NumPy writes these."""
 
 from collections import namedtuple
-from typing import Annotated, Any, TypeVar
+from types import GenericAlias
+from typing import Annotated
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from typing_extensions import TypeAliasType
 
 from nivel.system.tables import empty
 
-Number = TypeVar("Number", bound=np.generic)
-# as `numpy.typing.NDArray` is from NumPy 2.5 on
-Alias = TypeAliasType("Alias", np.ndarray[tuple[Any, ...], np.dtype[Number]], type_params=(Number,))
+
+class Alias:
+    """`Alias[number]` has the number as its only argument, as `numpy.typing.NDArray` from NumPy 2.5 on."""
+
+    __class_getitem__ = classmethod(GenericAlias)
 
 
 @pytest.mark.parametrize("array", [NDArray, Alias])

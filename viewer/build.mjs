@@ -20,9 +20,11 @@ const bundle = (entryPoints, banner) =>
     outdir: out,
     logLevel: "info",
   });
-await bundle({ viewer: "src/main.ts" }, "/* three.js and uPlot: MIT licence, see NOTICE */");
+await bundle({ viewer: "src/main.ts" }, "/* three.js, uPlot and dagre: MIT licence, see NOTICE */");
 await bundle({ program: "src/local/program.ts" }, "");
-writeFileSync(`${out}/NOTICE`, ["three", "uplot"].map(notice).join("\n---\n\n"));
+await bundle({ diagram: "src/report.ts" }, "/* dagre: MIT licence */");
+writeFileSync(`${out}/NOTICE`, ["three", "uplot", "@dagrejs/dagre"].map(notice).join("\n---\n\n"));
+writeFileSync(`${out}/DAGRE`, notice("@dagrejs/dagre"));
 
 // what the bundle was made from: tests compare
 const files = readdirSync("src", { recursive: true, withFileTypes: true })

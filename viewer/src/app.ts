@@ -25,8 +25,9 @@ import type { View } from "./stage/views";
 import { World } from "./stage/world";
 import { Coordinates } from "./ui/coordinates";
 import { Display } from "./ui/display";
-import { el, short } from "./ui/dom";
+import { el, short, enlarging } from "./ui/dom";
 import { Circuit } from "./ui/circuit";
+import { diagram } from "./ui/diagram";
 import { Inspector } from "./ui/inspector";
 import { Legend } from "./ui/legend";
 import { helpDialog, listenToKeys } from "./ui/keys";
@@ -159,6 +160,10 @@ export class App {
       this.hand = hand;
     }
     if (this.circuit) this.inspector.put(this.circuit.element);
+    if (stage.diagram.length) {
+      const blocks = diagram(stage.diagram);
+      this.inspector.put(el("section", { class: "circuits" }, el("h3", {}, "Block diagram"), enlarging("Large", blocks)));
+    }
     this.dialog = helpDialog(this.live?.keys ?? null);
     const data = el("div", {}, this.live?.panel ?? null, this.coordinates?.element ?? null, this.inspector.element);
     const display = new Display(this).element;

@@ -8,8 +8,7 @@ from nivel.judge.after.checks import joints
 from nivel.known import Result
 from nivel.lazy import dataclass
 from nivel.report.beam_shapes import beam_nodes, stations
-from nivel.report.control_diagram import control
-from nivel.report.element_panels import couplings, drivers, forces, sensors
+from nivel.report.element_panels import control, couplings, drivers, forces, sensors
 from nivel.report.panel import GROUPS, MOST, TOGETHER, Array, Curve, Group, Panel, components, left_out
 from nivel.results.scales import blocks, bodies, rotated
 

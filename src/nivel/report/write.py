@@ -14,11 +14,11 @@ from nivel.errors import ModelError
 from nivel.files.target import keep_sources, write_file
 from nivel.judge.after.report import thresholds_of
 from nivel.known import Result
-from nivel.lazy import dataclass, nivel
+from nivel.lazy import asdict, dataclass, nivel
+from nivel.looks.diagram import block_diagram
 from nivel.looks.poses import upwards
 from nivel.machine.machine_record import MachineRecord
 from nivel.report.beam_shapes import beam_shapes
-from nivel.report.control_diagram import control_diagram
 from nivel.report.element_panels import power_picture
 from nivel.report.load_path import load_paths, vibration_table
 from nivel.report.page import page, text_of
@@ -30,7 +30,7 @@ from nivel.report.strokes import joint_icon
 from nivel.results import trust
 from nivel.results.frames.stored import understood
 from nivel.results.scales import RULES
-from nivel.view.page import scene_html
+from nivel.view.page import built, scene_html
 from nivel.view.playback import SMALL
 
 OUTPUTS, PARAMETERS = 6, 12  # that are drawn; others stand in the result
@@ -147,7 +147,7 @@ def report_html(result: Result, operated: str = "") -> str:
         peaks=peak_reactions(result),
         tornados=tornados(result),
         slopes_headline=slopes_headline(result),
-        diagram=control_diagram(record),
+        **_diagram(record, str(result.attributes.get("machine_source", ""))),
         balance=balances,
         power=power_picture(result, record, balances),
         **_circuit_pictures(result, record),
@@ -159,6 +159,20 @@ def report_html(result: Result, operated: str = "") -> str:
         source=str(result.attributes.get("machine_source", "")),
         **{key: text_of(name) for key, name in names.items()},
     )
+
+
+def _diagram(record: dict[str, Any], source: str) -> dict[str, str]:
+    """The block diagram of the machine for the page, which lays it out by `diagram.js`; without one nothing is loaded for it."""
+    boxes = block_diagram(record, source)
+    if not boxes:
+        return {"blocks": "", "blocks_style": "", "blocks_script": "", "dagre_licence": ""}
+    text = json.dumps([asdict(box) for box in boxes], separators=(",", ":")).replace("<", "\\u003c")
+    return {
+        "blocks": text,
+        "blocks_style": built("diagram.css"),
+        "blocks_script": built("diagram.js"),
+        "dagre_licence": built("DAGRE"),
+    }
 
 
 def _circuit_pictures(result: Result, record: dict[str, Any]) -> dict[str, str]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from nivel.errors import ModelError
 from nivel.lazy import dataclass, nivel, replace
+from nivel.looks.diagram import block_diagram
 from nivel.machine.core.vectors import Array
 from nivel.results.result import Result
 from nivel.view import frames as frame_plan
@@ -171,6 +172,9 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
         if budget.plots and (number == 0 or budget.columns)
         else [],
         circuit=_circuit(result, record) if number == 0 else "",
+        diagram=block_diagram(record, str(result.attributes.get("machine_source", "")))
+        if number == 0 and budget.plots
+        else [],
         moments=[Moment(name, float(at)) for name, at in result.marks if np.isfinite(at)][:MOST_MOMENTS],
         notes=_notes(result, rows[:, : 7 * bodies], frames),
         motion=Motion(

@@ -10,6 +10,7 @@ little-endian 32-bit number that says what follows: see PACKAGE, FRAME and COLUM
 from typing import Final, Literal
 
 from nivel.lazy import dataclass, field
+from nivel.looks.diagram import DiagramBox
 
 Triple = tuple[float, float, float]
 ForceLook = Literal[
@@ -434,6 +435,7 @@ class Stage:
 
     up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by.
     surroundings : solids that stand on the ground, of which the machine knows nothing.
+    diagram : blocks of the machine.
     notes : what the user has to know, for instance that the run failed. colourless : in sentences, what has no colours by stress, and why.
     circuit : SVG of its hydraulic circuits, empty without any; `data-pressure` of a text names the variable that it shows.
     """
@@ -464,6 +466,7 @@ class Stage:
     moments: list[Moment] = field(default_factory=list)
     coordinates: list[Coordinate] = field(default_factory=list)
     circuit: str = ""
+    diagram: list[DiagramBox] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     motion: Motion | None = None
 

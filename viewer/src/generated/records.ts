@@ -8,6 +8,17 @@ export const COLUMN = 3;
 export const TABLE = 5;
 export const MOVES = 6;
 
+/** An element, or all components of circuits that neither act on bodies nor read signals. kind : how it is drawn. words : what it is. joins : numbers of the boxes that it connects or acts on. reads : numbers of those whose signals it reads. line, lines : where its lines in the machine file begin, and their text; 0 and empty where it does not stand there. */
+export interface DiagramBox {
+  name: string;
+  kind: string;
+  words: string;
+  joins: number[];
+  reads: number[];
+  line: number;
+  lines: string;
+}
+
 /** An array in the block of bytes. kind : f4, f8, u4 or u2, little-endian. start : its first byte. The bytes are shuffled, which compresses better: the first bytes of all numbers, then the second bytes, and so on. */
 export interface Packed {
   kind: "f4" | "f8" | "u4" | "u2";
@@ -272,7 +283,7 @@ export interface Motion {
   load: Packed | null;
 }
 
-/** Everything that is drawn of one machine. origin : the point of the global frame from which all positions are counted. up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by. surroundings : solids that stand on the ground, of which the machine knows nothing. notes : what the user has to know, for instance that the run failed. colourless : in sentences, what has no colours by stress, and why. circuit : SVG of its hydraulic circuits, empty without any; `data-pressure` of a text names the variable that it shows. */
+/** Everything that is drawn of one machine. origin : the point of the global frame from which all positions are counted. up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by. surroundings : solids that stand on the ground, of which the machine knows nothing. diagram : blocks of the machine. notes : what the user has to know, for instance that the run failed. colourless : in sentences, what has no colours by stress, and why. circuit : SVG of its hydraulic circuits, empty without any; `data-pressure` of a text names the variable that it shows. */
 export interface Stage {
   name: string;
   title: string;
@@ -300,6 +311,7 @@ export interface Stage {
   moments: Moment[];
   coordinates: Coordinate[];
   circuit: string;
+  diagram: DiagramBox[];
   notes: string[];
   motion: Motion | null;
 }

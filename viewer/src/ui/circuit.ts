@@ -1,6 +1,6 @@
 // The diagram of hydraulic circuits with the pressures of the moment; a click at a pressure plots it.
 import type { Columns } from "../columns";
-import { el, icon } from "./dom";
+import { el, enlarging } from "./dom";
 import type { Plots } from "./plots";
 
 const START = "hydraulics.";
@@ -23,14 +23,7 @@ export class Circuit {
   constructor(svg: string, columns: Columns, plots: Plots) {
     const diagram = el("div", { class: "diagram" });
     diagram.innerHTML = svg;
-    const large = el("dialog", { class: "large-circuit" }, el("form", { method: "dialog" }, el("button", { class: "chip" }, icon("close"), "Close"))) as HTMLDialogElement;
-    const enlarge = () => {
-      large.append(diagram);
-      large.showModal();
-    };
-    this.element = el("section", { class: "circuits" }, el("h3", {}, "Hydraulics"), el("button", { type: "button", class: "chip", onclick: enlarge }, icon("fit"), "Large"), diagram);
-    large.addEventListener("close", () => this.element.append(diagram));
-    document.body.append(large);
+    this.element = el("section", { class: "circuits" }, el("h3", {}, "Hydraulics"), enlarging("Large", diagram), diagram);
     this.key = diagram.querySelector("[data-highest]");
     for (const line of diagram.querySelectorAll<SVGElement>("[data-level]")) {
       void columns.get(0, START + line.getAttribute("data-level")).then((values) => {

@@ -52,6 +52,20 @@ export function renew(button: HTMLButtonElement, name: IconName, label: string, 
   button.title = key ? `${label} (${key})` : label;
 }
 
+/** A button that shows `content` in a dialog over the whole page; closed, it is where it was. */
+export function enlarging(label: string, content: HTMLElement): HTMLButtonElement {
+  const large = el("dialog", { class: "large-diagram" }, el("form", { method: "dialog" }, el("button", { class: "chip" }, icon("close"), "Close"))) as HTMLDialogElement;
+  const mark = document.createComment("");
+  const enlarge = () => {
+    content.replaceWith(mark);
+    large.append(content);
+    large.showModal();
+  };
+  large.addEventListener("close", () => mark.replaceWith(content));
+  document.body.append(large);
+  return el("button", { type: "button", class: "chip", onclick: enlarge }, icon("fit"), label);
+}
+
 export function toggle(label: string, checked: boolean, onchange: (on: boolean) => void): HTMLLabelElement {
   const input = el("input", { type: "checkbox", role: "switch", checked });
   input.addEventListener("change", () => onchange(input.checked));

@@ -30,7 +30,7 @@ skfem.helpers skfem.io.meshio skfem.models.elasticity skfem.models.poisson webso
 websockets.exceptions websockets.sync.client xarray"""
 OF_LAZY: Final = """from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields, is_dataclass, replace
-from typing import Any, Final
+from typing import Any, Final, dataclass_transform
 
 PLACES: Final[dict[str, str]]
 
@@ -41,6 +41,9 @@ class Late:
 def homes(file: str) -> dict[str, tuple[str, str]]: ...
 def provide(places: Mapping[str, str]) -> None: ...
 def provided(subject: str) -> Any: ...
+@dataclass_transform(frozen_default=True, field_specifiers=(field,))
+class Struct:
+    def __init_subclass__(cls, *, repr: bool = True, eq: bool = True, order: bool = False, kw_only: bool = False) -> None: ...
 """
 
 
@@ -92,6 +95,7 @@ def stub_of_lazy() -> str:
     public = {
         "PLACES",
         "Late",
+        "Struct",
         "homes",
         "provide",
         "provided",

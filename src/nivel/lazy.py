@@ -131,3 +131,11 @@ def dataclass(kind=None, /, *, frozen=False, eq=True, repr=True, order=False, kw
         kind.__hash__ = (lambda record: hash(compared(record))) if frozen else None
     kind.__signature__ = _Signature()
     return total_ordering(kind) if order else kind
+
+
+class Struct:
+    """A record of facts: each class below is a dataclass that refuses changes."""
+
+    def __init_subclass__(cls, **options: bool) -> None:
+        super().__init_subclass__()
+        dataclass(cls, frozen=True, **options)

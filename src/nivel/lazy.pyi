@@ -4,7 +4,7 @@
 # pyright: reportOptionalMemberAccess=false
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields, is_dataclass, replace
-from typing import Any, Final
+from typing import Any, Final, dataclass_transform
 
 PLACES: Final[dict[str, str]]
 
@@ -15,6 +15,9 @@ class Late:
 def homes(file: str) -> dict[str, tuple[str, str]]: ...
 def provide(places: Mapping[str, str]) -> None: ...
 def provided(subject: str) -> Any: ...
+@dataclass_transform(frozen_default=True, field_specifiers=(field,))
+class Struct:
+    def __init_subclass__(cls, *, repr: bool = True, eq: bool = True, order: bool = False, kw_only: bool = False) -> None: ...
 
 import PIL.Image
 import distributed
@@ -291,4 +294,4 @@ import websockets.exceptions
 import websockets.sync.client
 import xarray
 
-__all__ = ['Late', 'PIL', 'PLACES', 'asdict', 'dataclass', 'distributed', 'field', 'fields', 'gymnasium', 'h5py', 'homes', 'imageio_ffmpeg', 'is_dataclass', 'matplotlib', 'meshio', 'nivel', 'numpy', 'pint', 'provide', 'provided', 'pyarrow', 'replace', 'rich', 'scipy', 'skfem', 'websockets', 'xarray']
+__all__ = ['Late', 'PIL', 'PLACES', 'Struct', 'asdict', 'dataclass', 'distributed', 'field', 'fields', 'gymnasium', 'h5py', 'homes', 'imageio_ffmpeg', 'is_dataclass', 'matplotlib', 'meshio', 'nivel', 'numpy', 'pint', 'provide', 'provided', 'pyarrow', 'replace', 'rich', 'scipy', 'skfem', 'websockets', 'xarray']

@@ -30,7 +30,7 @@ from nivel.known import (
     Sensor,
     State,
 )
-from nivel.lazy import dataclass, nivel, replace
+from nivel.lazy import Struct, nivel, replace
 from nivel.machine.bodies.body import Body
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.named import Named, NamedValues
@@ -97,8 +97,7 @@ class Elements:
     events: Section[Event] = Section("event", "Events by name.")
 
 
-@dataclass(frozen=True, repr=False)
-class Subsystem(Elements):
+class Subsystem(Struct, Elements, repr=False):
     """A part of a machine that an assembly makes: ``machine.assemblies["left"].bodies["thigh"]``.
 
     assembly : file, place and parameters, as given. Its elements go by their names in the part; in the machine these have its `prefix`.

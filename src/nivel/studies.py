@@ -16,7 +16,7 @@ from nivel.files.sources import beside, read_bytes, read_text
 from nivel.files.study_file import StudyFile, study_and_faults
 from nivel.files.target import write_page
 from nivel.known import Identified, Journal, Optimum, Resolved, Variants
-from nivel.lazy import dataclass, nivel, replace, xarray
+from nivel.lazy import Struct, nivel, replace, xarray
 from nivel.machine.study.parameter import Between
 from nivel.results.frames.tabulated import write_netcdf
 from nivel.words.arguments import checked_arguments, checked_methods
@@ -26,8 +26,7 @@ TIMES = ("seconds", "loop_seconds", "processes")  # attributes that are of the c
 
 
 @checked_methods
-@dataclass(frozen=True, repr=False)
-class Study:
+class Study(Struct, repr=False):
     """A study file with its machine: `variants`, and what `sweep` computes of them. Made by `nivel.load_study`."""
 
     resolved: Resolved

@@ -24,7 +24,7 @@ from nivel.judge.before.refusals import ON_SOIL
 from nivel.judge.during.stop import Status
 from nivel.kernels.core.block import Handle
 from nivel.kernels.record.function import CONSTANT
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.laws.time_function import Table
 from nivel.machine.signals.input import Input
 from nivel.native.entry import Entry
@@ -87,8 +87,7 @@ USUAL = ("joint_coordinate", "joint_rate")
 EVERYTHING = "*"
 
 
-@dataclass(frozen=True)
-class Output:
+class Output(Struct):
     """A number of a frame. place : in the frame."""
 
     name: str
@@ -96,8 +95,7 @@ class Output:
     place: int
 
 
-@dataclass(frozen=True)
-class InputPlace:
+class InputPlace(Struct):
     """An input. kind, value : bytes of the image where its function has them. rest : its value while it is not set, at the start.
     followed : place in a frame of the value that it has.
     """
@@ -113,8 +111,7 @@ class InputPlace:
     description: str
 
 
-@dataclass(frozen=True)
-class Exported:
+class Exported(Struct):
     """A machine prepared for a run of fixed steps without an end. what : it becomes, for messages. outputs : the time first."""
 
     what: str

@@ -15,7 +15,7 @@ from nivel.analysis.plan.plan import Plan
 from nivel.c_library.exported import Exported, export, refusal
 from nivel.c_library.image import LINE
 from nivel.files.target import reason_of, write_file
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.native import library
 from nivel.native.entry import Entry
 from nivel.native.processor import LEVELS
@@ -26,8 +26,7 @@ SOURCES = files("nivel.c_library").joinpath("sources")
 RUNTIME = "nivel_machine.h"
 
 
-@dataclass(frozen=True)
-class Files:
+class Files(Struct):
     """What was written. outputs : names of the numbers that the library gives after each step. inputs : names of what can be set.
     size : bytes of one machine. verified : no; a library makes single runs, whose error nothing estimates.
     """

@@ -24,11 +24,10 @@ from nivel.cli.options import (
 from nivel.cli.progress import progress_listener
 from nivel.errors import ModelError, SolveError
 from nivel.known import Listener, Machine, Study
-from nivel.lazy import dataclass, nivel
+from nivel.lazy import Struct, nivel
 
 
-@dataclass(frozen=True)
-class Order:
+class Order(Struct):
     """What a command was asked for. machine : its file. settings : those that were given. out : a result file, if one was named."""
 
     machine: str
@@ -133,8 +132,7 @@ def analysis_command(keys: Any, name: str) -> Callable[[Callable[..., None]], cl
     return made
 
 
-@dataclass(frozen=True)
-class StudyOrder:
+class StudyOrder(Struct):
     """What a command of a study was asked for. count : of processes or threads; None: one for each processor."""
 
     study: str

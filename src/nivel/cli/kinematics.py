@@ -12,7 +12,7 @@ from nivel.cli.progress import computed_in, console, ended, progress_listener, s
 from nivel.cli.run import assembly_lines
 from nivel.errors import Fault, ModelError
 from nivel.known import Machine, Result, Studies
-from nivel.lazy import dataclass, nivel
+from nivel.lazy import Struct, nivel
 from nivel.settings import KinematicsSettingsDict
 
 
@@ -55,8 +55,7 @@ def command(order: Order, ranged: bool, through: bool, transmission: tuple[str, 
         order.run(f"{machine.name}-kinematics.nc", machine.kinematics, _say, studied)
 
 
-@dataclass(frozen=True)
-class Studied:
+class Studied(Struct):
     """A result with transmission angles and curves, if some were asked for."""
 
     result: Result

@@ -17,7 +17,7 @@ from nivel.errors import Fault, refuse
 from nivel.exchange.mechanism import Array, Frame
 from nivel.exchange.translation import Notes
 from nivel.files.joint_parts import rotors_of
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, dataclass, field
 from nivel.machine.bodies.body import Body
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.placement import marker_frame
@@ -31,8 +31,7 @@ from nivel.system.joint_frames import joint_frames
 IN_TREE: Final = ("fixed", "planar", "cylindrical", "screw", "translational", "universal", "revolute", "spherical")
 
 
-@dataclass(frozen=True)
-class Motion:
+class Motion(Struct):
     """One elementary motion of a body: `turn` about or `slide` along an axis (3,) in the frame of the body, by a joint coordinate."""
 
     kind: str

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault
 from nivel.exchange.translation import Names, Notes
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, dataclass, field
 from nivel.machine.core.record import GROUND
 from nivel.machine.core.vectors import Array
 
@@ -23,8 +23,7 @@ WORLD: Final = ""  # in place of the name of a link: the fixed world
 MOST_LINKS: Final = 10_000
 
 
-@dataclass(frozen=True)
-class Frame:
+class Frame(Struct):
     """A frame: axes (3, 3), whose columns are its axes, and origin (3,) [m], both in the frame around it."""
 
     axes: Array = field(default_factory=lambda: np.eye(3))
@@ -49,8 +48,7 @@ def turned(roll: float, pitch: float, yaw: float) -> Array:
     return about_z @ about_y @ about_x
 
 
-@dataclass(frozen=True)
-class Inertial:
+class Inertial(Struct):
     """Mass [kg], centre of mass (3,) [m] and inertia (3, 3) [kg m²] about it, both in the frame of the link."""
 
     mass: float
@@ -58,8 +56,7 @@ class Inertial:
     inertia: Array
 
 
-@dataclass(frozen=True)
-class Look:
+class Look(Struct):
     """A solid that is drawn. place : of its middle in the frame of the link, cylinders and capsules along its z axis.
 
     sizes : three lengths of a box, radii of an ellipsoid; radius and length; radius. file, scale : of a mesh, one factor for each of its
@@ -131,8 +128,7 @@ class Connection:
 Terms = tuple[tuple[str, float], ...]  # joints or spans by name and their factors f in a length l = Σ f q
 
 
-@dataclass(frozen=True)
-class Span:
+class Span(Struct):
     """The distance of two points, each by a link and its place (3,) in that."""
 
     name: str
@@ -141,8 +137,7 @@ class Span:
     reference: float = 0.0
 
 
-@dataclass(frozen=True)
-class Rope:
+class Rope(Struct):
     """A rope along a way of (link, point (3,) in the link, signed radius of a wheel or 0). axis : of the wheels, global, as in a machine
     file; None without wheels. length [m] : from which on it pulls. stiffness : 0 where it is an end, which is found later."""
 
@@ -185,8 +180,7 @@ class Tendon:
     ends: tuple[float, float] | None = None
 
 
-@dataclass(frozen=True)
-class Surface:
+class Surface(Struct):
     """What a file says of the surface of a solid. stiffness [N/m], damping [N s/m] : of a point, None where it says nothing."""
 
     friction: float = 1.0
@@ -194,8 +188,7 @@ class Surface:
     damping: float | None = None
 
 
-@dataclass(frozen=True)
-class Solid:
+class Solid(Struct):
     """A solid of a link, or of WORLD, that touches others. look : its kind and place; a `plane` has its normal along z.
 
     apart_from : name of the model whose other solids it does not touch.
@@ -208,8 +201,7 @@ class Solid:
     apart_from: str = ""
 
 
-@dataclass(frozen=True)
-class Touch:
+class Touch(Struct):
     """Two solids by name that touch. stiffness [N/m] : of a point; damping [s/m] : factor of the force by the speed of approach. spin,
     roll [m] : moments of friction by the normal force."""
 

@@ -8,7 +8,7 @@ import numpy as np
 from nivel.exchange.mechanism import Array, Frame
 from nivel.exchange.translation import Notes
 from nivel.files.mesh_file import stl_content
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Mesh, Shape, Sphere, Tube, digits_of
 from nivel.machine.bodies.solids import axes_of, box_size, length, mesh_surface
@@ -67,8 +67,7 @@ def _shown(value: object) -> str:
     return repr(value).removesuffix(".0") if isinstance(value, float) else escape(str(value))
 
 
-@dataclass(frozen=True)
-class Geometry:
+class Geometry(Struct):
     """kind : box, cylinder, capsule, sphere or mesh. place : of its middle, round ones along z. sizes : lengths; radius, length; radius.
 
     file : of a mesh. colour : red, green, blue from 0 to 1, or None.

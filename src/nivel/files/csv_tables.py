@@ -15,7 +15,7 @@ from nivel.files.measured_file import KINDS, MeasuredError, measured_columns
 from nivel.files.outline import section_of
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.record import unknown_word
 from nivel.machine.units.quantity import ANY, read_quantity, shown
 from nivel.machine.units.tree import TIME, ExpressionError
@@ -28,8 +28,7 @@ _HEADING: Final = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<units>[^\])]*)[\])
 Reader = Callable[[dict[str, Any], Any, str], Any]
 
 
-@dataclass(frozen=True)
-class Column:
+class Column(Struct):
     """Numbers of a column, the line of each in its file, and the unit that its heading names."""
 
     numbers: list[float]

@@ -12,7 +12,7 @@ from typing import Final
 from nivel.errors import Fault, ModelError
 from nivel.files.target import reason_of
 from nivel.files.xml_source import Document, Element
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 from nivel.words.wording import unknown_word
 
 MOST_FILES: Final = 10_000
@@ -24,8 +24,7 @@ DESCRIPTION: Final = "modelDescription.xml"
 NUMBER: Final = {3: "Float64", 2: "Real"}
 
 
-@dataclass(frozen=True)
-class UnitVariable:
+class UnitVariable(Struct):
     """A variable of a unit. kind : `Float64` or another. sizes : whether it is an array."""
 
     name: str
@@ -35,8 +34,7 @@ class UnitVariable:
     is_array: bool = False
 
 
-@dataclass(frozen=True)
-class UnitDescription:
+class UnitDescription(Struct):
     """What a unit is. version : of FMI. keeps_states : it can read, set and serialise its state. once : only one instance can be in a
     process. needs_tool : it runs only where the program that made it is installed."""
 

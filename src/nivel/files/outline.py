@@ -5,7 +5,7 @@ from typing import Any, Final
 
 from nivel.errors import Fault, ModelError
 from nivel.files.tree import Tree
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.record import Record, field_words, unknown_word
 from nivel.machine.example_line import element_line
 from nivel.machine.machine_record import MachineRecord
@@ -153,8 +153,7 @@ def as_part(tree: Tree, only: tuple[str, ...] | None, example: str) -> None:
 Element = tuple[str, str]  # section and name
 
 
-@dataclass(frozen=True)
-class Known:
+class Known(Struct):
     """texts : the elements of the file itself, as they are written. records : what they are. types : of its joints. parameters : what
     their expressions may name."""
 

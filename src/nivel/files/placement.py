@@ -24,7 +24,7 @@ from nivel.elements.beams.beam import Beam
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
 from nivel.files.substitution import NotRepresentableError, rewritten, same, substituted
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, dataclass, field
 from nivel.machine.bodies.body import Body
 from nivel.machine.core.marker import Marker
 from nivel.machine.core.orientation import (
@@ -47,8 +47,7 @@ AXIAL: Final = (-1.0, -1.0, -1.0)
 _ROUND: Final = 1e-14  # quarter turns are exact
 
 
-@dataclass(frozen=True)
-class Placement:
+class Placement(Struct):
     """translation (3,) [m]; rotation (3, 3); reflection (3,) of ±1, in the part's axes."""
 
     translation: Array

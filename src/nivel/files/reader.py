@@ -11,7 +11,7 @@ from nivel.files.overrides import prefix_of
 from nivel.files.scope import Scope
 from nivel.files.sources import Sources, read_text
 from nivel.files.tree import Path, Tree, read_tree
-from nivel.lazy import dataclass, field, replace
+from nivel.lazy import Struct, field, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.uses.references import SECTIONS
@@ -83,8 +83,7 @@ SETTING = re.compile(r"`(\w+)(?:`|: ([^`]*)`)")
 OUTSIDE = " (set from outside the file)"
 
 
-@dataclass(frozen=True)
-class Origin:
+class Origin(Struct):
     """Where the values of a machine were set: in a file, from outside of it, or as arguments of a run.
 
     source : text of the `file`, empty for machines from records. outside : paths of values set from outside of the file, such as

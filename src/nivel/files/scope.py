@@ -24,7 +24,7 @@ from nivel.files.overrides import in_order, override, prefix_of, with_units
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.known import Assembly
-from nivel.lazy import dataclass, nivel, replace
+from nivel.lazy import Struct, nivel, replace
 from nivel.machine.control.order import can_be_named
 from nivel.machine.core.record import Record
 from nivel.machine.laws.named_function import resolve_functions
@@ -40,8 +40,7 @@ MOST_ROUNDS: Final = 5  # of functions that call for other units in the expressi
 Elements = dict[str, dict[str, Record]]
 
 
-@dataclass(frozen=True)
-class FileNames:
+class FileNames(Struct):
     """What a machine file names beside the elements: values of its parameters, and its assemblies with all their values. deciding : the
     parameters of `nivel.files.deciding`."""
 
@@ -50,8 +49,7 @@ class FileNames:
     deciding: frozenset[str] = frozenset()
 
 
-@dataclass(frozen=True)
-class Scope:
+class Scope(Struct):
     """A file with all that it includes. overrides : set from outside. user : the file, and the assembly in it, that this is a part of."""
 
     text: str

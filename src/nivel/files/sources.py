@@ -8,7 +8,7 @@ from typing import Final, TypeVar
 
 from nivel.errors import Fault, ModelError
 from nivel.files.tree import Path, Tree
-from nivel.lazy import dataclass, field, replace
+from nivel.lazy import Struct, field, replace
 from nivel.machine.units.quantity import shown
 
 _COLUMN: Final = ", not a machine file; a machine reads a {}: `{{{{csv: {{file}}, column: {}}}}}`"
@@ -63,8 +63,7 @@ LARGEST: Final = 500 * 10**6  # bytes of a file
 MOST: Final = 2000  # files read for one machine, each as often as it is used
 
 
-@dataclass(frozen=True)
-class Sources:
+class Sources(Struct):
     """How the files of a machine are read.
 
     allow_code : laws may run Python code. open : the files that led to the present one, outermost first. read : every

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.extras import needed, require
 from nivel.files.apart import apart
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.bodies.surface import Triangles, joined
 from nivel.machine.core.vectors import Array
 
@@ -21,8 +21,7 @@ FACETS: Final = 24.0  # of a full turn of curved surfaces
 MOST_SOLIDS: Final = 5000
 
 
-@dataclass(frozen=True)
-class Solid:
+class Solid(Struct):
     """name : of the part, unique in the file. volume [m³], centre (3,) [m] and moments (3, 3) [m⁵] about it, in the axes of the file.
 
     surface : vertices (n, 3) [m] and triangles (m, 3), to be drawn. colour : `#rrggbb`, or empty.

@@ -14,7 +14,7 @@ from nivel.files.outline import take_format
 from nivel.files.overrides import override
 from nivel.files.sources import Sources, beside
 from nivel.files.tree import Path, Tree, read_tree
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.record import Record, field_words, without_problems
 from nivel.machine.settings.analyses import SETTINGS
 from nivel.machine.study.parameter import OUTPUTS, PARAMETERS
@@ -26,8 +26,7 @@ TOP_WORDS: Final = ("format", *field_words(StudyRecord))
 EXAMPLE: Final = "a mapping with `format: 1` and `machine: FILE.yaml` was expected"
 
 
-@dataclass(frozen=True)
-class StudyFile:
+class StudyFile(Struct):
     """A study as it was read, and where everything stands in its file.
 
     file : its name. text : what stands in it. allow_code : whether its functions, and those of its machine, may be run.

@@ -18,7 +18,7 @@ from nivel.c_library.parameters import Followed, Vary, follow
 from nivel.c_library.writer import PLATFORMS, Platform, known_platform, object_codes, this_platform
 from nivel.files.target import written
 from nivel.fmu.description import description, machine_data, variables_of
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.native import shipped, store
 from nivel.native.workers import CompilationError
 
@@ -105,8 +105,7 @@ VERSIONS = (3, 2)
 TIME, MODE = (1980, 1, 1, 0, 0, 0), 0o644
 
 
-@dataclass(frozen=True)
-class Unit:
+class Unit(Struct):
     """An FMU that was written. outputs, inputs, parameters : names of its variables. platforms : that it runs on."""
 
     path: Path

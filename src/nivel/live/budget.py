@@ -20,7 +20,7 @@ from nivel.integrate.loop import paced
 from nivel.integrate.loop.run import TIME
 from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.output.observe import observe
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.live.preparation import HAND_INPUTS, LiveRun, Pace, live_plan, prepared_run
 from nivel.live.shared import arrays_in, bytes_of, live_in, put_back, taken
 from nivel.live.timing import ENTRIES, Timing, give_clocks, shares, timing_of
@@ -40,8 +40,7 @@ MOST_IN_ALL: Final = 4  # levers of which all combinations of ends are held; of 
 PATIENCE: Final = 20.0  # s of the processor for all combinations of a method
 
 
-@dataclass(frozen=True)
-class Held:
+class Held(Struct):
     """What ticks cost while inputs are held. values : of these inputs, the others rest. ended : time at which the run ended [s]; NaN: it
     did not."""
 
@@ -58,8 +57,7 @@ class Held:
         return ", ".join(f"{name} at {value:.4g}" for name, value in self.values.items())
 
 
-@dataclass(frozen=True)
-class Cost:
+class Cost(Struct):
     """What a method costs.
 
     note : why it does not run, or what else is to be known of the run. parts : share of the computing time by part, where that is known.

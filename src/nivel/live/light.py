@@ -14,7 +14,7 @@ from nivel.judge.after.checks import circuits, energy, joints
 from nivel.judge.after.checks.energy import Energy
 from nivel.judge.after.checks.joints import Violation
 from nivel.judge.after.subject import Motion
-from nivel.lazy import dataclass, field, replace
+from nivel.lazy import Struct, dataclass, field, replace
 from nivel.live.timing import Timing
 from nivel.machine.core.vectors import Array
 from nivel.results.frames.contents import MemoryContents
@@ -31,8 +31,7 @@ REAL_TIME: Final = Threshold(
 )
 
 
-@dataclass(frozen=True)
-class Counts:
+class Counts(Struct):
     """What the solver knows of the steps since the start of the motion: the largest kinetic energy [J], and of steps over circuits those
     that were divided, their parts that were not extrapolated, and the largest difference of a pressure in one [Pa]. guards : whether
     these are counted."""
@@ -44,8 +43,7 @@ class Counts:
     difference: float = 0.0
 
 
-@dataclass(frozen=True)
-class Light:
+class Light(Struct):
     """A verdict, and in sentences why it is not green."""
 
     verdict: Verdict = "green"

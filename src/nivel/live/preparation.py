@@ -21,7 +21,7 @@ from nivel.integrate.loop.run import TIME, Run
 from nivel.kernels.core.block import Handle
 from nivel.kernels.output.observe import observe
 from nivel.known import SoilUnit
-from nivel.lazy import dataclass
+from nivel.lazy import Struct, dataclass
 from nivel.live.shared import Ground, Sizes, arrays_in, put_back, taken
 from nivel.machine.laws.time_function import Table
 from nivel.machine.laws.varying_value import Expression
@@ -37,8 +37,7 @@ CAUGHT_UP: Final = 0.05  # s: a longer delay stretches time
 SILENCE: Final = 0.5  # s after which an operator counts as lost
 
 
-@dataclass(frozen=True)
-class Pace:
+class Pace(Struct):
     """tick : simulated time from input to input [s]; of `substeps` steps each. every : ticks between frames."""
 
     step: float

@@ -11,7 +11,7 @@ import numpy as np
 
 import nivel
 from nivel.errors import ModelError
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, dataclass, field
 from nivel.live import journal as journals
 from nivel.live.preparation import Pace
 from nivel.machine.core.vectors import Array
@@ -23,8 +23,7 @@ FORMAT: Final = 2
 ENDING: Final = ".live.npz"
 
 
-@dataclass(frozen=True)
-class Take:
+class Take(Struct):
     """One motion from the start on. tape (ticks, inputs): values of the inputs at the ends of ticks. frames (n, width), those that were
     kept. whole : whether its ticks were kept until it ended."""
 
@@ -47,8 +46,7 @@ class Take:
         return Take(tape, frames, other.whole)
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(Struct):
     """Motion between two moments at which the machine was put somewhere else.
 
     before : number of the part that it goes on from, after `ticks` ticks from the start; -1: it begins at the start. own : its motion.
@@ -74,8 +72,7 @@ def _joined(before: Take, part: Part, pace: Pace) -> Take:
     return first.then(part.own)
 
 
-@dataclass(frozen=True)
-class Recording:
+class Recording(Struct):
     """A recording from a file. settings : given for the run. has_code : whether laws of the machine are functions in Python."""
 
     machine: MachineRecord

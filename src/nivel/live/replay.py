@@ -24,7 +24,7 @@ from nivel.judge.during.failure import failure
 from nivel.judge.during.stop import Stop
 from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.core.status import DONE as ENDED
-from nivel.lazy import dataclass, nivel, replace
+from nivel.lazy import Struct, nivel, replace
 from nivel.live.preparation import LiveRun, prepared_run
 from nivel.live.recording import Recording, Take
 from nivel.live.shared import bytes_of, live_in
@@ -37,8 +37,7 @@ from nivel.results.store import Store
 FRAMES_AT_ONCE: Final = 32
 
 
-@dataclass(frozen=True)
-class Replay:
+class Replay(Struct):
     """A run done again. compared : frames that the recording has. different : how many of them are not repeated bit by bit; first : time
     of the first such frame [s]."""
 

@@ -14,7 +14,7 @@ from nivel.integrate.loop.repeated import halt, repeat_evaluation, repeat_family
 from nivel.integrate.loop.run import BUDGET, DONE_STEPS, EVALUATIONS, EVENTS, FRAMES, TIME
 from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.output.observe import observe
-from nivel.lazy import dataclass, nivel
+from nivel.lazy import Struct, nivel
 from nivel.live.preparation import LiveRun
 from nivel.native.entry import Entry
 
@@ -22,8 +22,7 @@ LEAST: Final = 0.005  # share of a part that is worth to be told
 PERCENTS: Final = (50.0, 90.0, 99.0, 99.9)
 
 
-@dataclass(frozen=True)
-class Timing:
+class Timing(Struct):
     """Of ticks in real time: percentiles (50, 90, 99, 99.9) and the maximum of computing time (of the thread) and of lateness [s].
 
     tick : simulated time of a tick [s]. overruns : ticks that ended after the next deadline, `own` of them because their own computing

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 
 PLANAR = 0.05  # a machine thinner than this fraction of its length is flat
@@ -12,8 +12,7 @@ AZIMUTHS = np.deg2rad([-60.0, -45.0, -30.0, 30.0, 45.0, 60.0, 120.0, 135.0, 150.
 X, Y, Z = np.eye(3)
 
 
-@dataclass(frozen=True)
-class View:
+class View(Struct):
     """An orthographic view; three perpendicular unit vectors in global axes.
 
     right, up : directions on the screen. towards : from the machine to the eye.

@@ -4,7 +4,7 @@ import math
 from html import escape
 from typing import Final, NamedTuple
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.report.page import page, text_of
 from nivel.report.plots import LogAxis, power_of_ten
 from nivel.report.story import trusted
@@ -42,8 +42,7 @@ WIDE: Final = Size(1100, 470, 62, 18, 14, 46)
 NARROW: Final = Size(400, 430, 50, 10, 12, 44)
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(Struct):
     """A method: its label, its look, and its points from coarse to fine. number : of the curve; tone, kind : of colour and marker."""
 
     label: str
@@ -196,8 +195,7 @@ class Shown(NamedTuple):
     below: str = ""
 
 
-@dataclass(frozen=True)
-class Stat:
+class Stat(Struct):
     """A card on top: a figure, and what it says."""
 
     title: str

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, dataclass, field
 from nivel.looks.viewpoint import View
 from nivel.machine.core.vectors import Array
 
@@ -27,8 +27,7 @@ CLOSE = 1.2  # cost of a label that touches another
 ANGLES = np.deg2rad([-40.0, 40.0, -140.0, 140.0, 0.0, 180.0, -90.0, 90.0, -65.0, 65.0, -115.0, 115.0])
 
 
-@dataclass(frozen=True)
-class Label:
+class Label(Struct):
     """A name at its point; `kind` is its class in the picture."""
 
     text: str
@@ -37,8 +36,7 @@ class Label:
     kind: str
 
 
-@dataclass(frozen=True)
-class Placed:
+class Placed(Struct):
     """A label in its place: the box of its text."""
 
     label: Label
@@ -155,8 +153,7 @@ MARGIN = (54.0, 46.0)  # room for names and ground signs
 ROOMY = 28.0  # pixels between points from which on signs have their full size
 
 
-@dataclass(frozen=True)
-class Frame:
+class Frame(Struct):
     """From metres in space to pixels on the picture."""
 
     view: View

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 from nivel.report.page import page
 from nivel.report.plots import Line, curves, path_drawing
@@ -16,8 +16,7 @@ SETTLED = 0.02  # change of a state in half a second, up to which it is steady
 NOTE = "x forwards, y to the left; accelerations without gravity, of the origin of the body."
 
 
-@dataclass(frozen=True)
-class Manoeuvre:
+class Manoeuvre(Struct):
     """(n,) time, steering angle, speeds and accelerations along and across, yaw, its rate, roll, place; SI. `name` of the manoeuvre."""
 
     name: str

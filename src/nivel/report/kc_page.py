@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebfit, chebval
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.looks.poses import rotation
 from nivel.machine.core.vectors import Array
 from nivel.report.handling_page import Numbers, plots_page
@@ -38,8 +38,7 @@ X_TITLES: Final = {
 NOTE = "Toe: inwards in front; camber: outwards at the top. Forces act at the ground. Heights and loads are those of the rig."
 
 
-@dataclass(frozen=True)
-class Wheel:
+class Wheel(Struct):
     """A wheel: name of its tyre, body, centre and outward axle in its frame, side (1: left, -1: right) and radius [m]."""
 
     name: str
@@ -56,8 +55,7 @@ def slopes(values: Array) -> Array:
     return np.asarray(chebval(ENDS, chebder(chebfit(ENDS, flat, NODES))).T.reshape(values.shape), dtype=float)
 
 
-@dataclass(frozen=True)
-class Curves:
+class Curves(Struct):
     """What wheels do in a case, by name and at ENDS: toe and camber [°], centre (n, 3) [m], slope of the contact by the share of the case
     (n, 3) [m], vertical load of the rig [N]; lengths of springs [m]. size : of the case [m, N or N m]."""
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 
 GROUPS = 24  # elements of a panel that can be chosen; more stand in the result file
@@ -13,8 +13,7 @@ TOGETHER = 8  # curves that can be told apart in one plot
 MOST = 2 * TOGETHER  # curves in a plot: those after the first TOGETHER are dashed
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(Struct):
     """One curve (n,); `tone` is the place of its colour, "x", "y", "z" or a number."""
 
     label: str
@@ -22,8 +21,7 @@ class Curve:
     tone: str
 
 
-@dataclass(frozen=True)
-class Group:
+class Group(Struct):
     """Curves of one unit.
 
     limits : (value, colour word) of lines that the curves are held against.
@@ -37,8 +35,7 @@ class Group:
     floor: float = 0.0
 
 
-@dataclass(frozen=True)
-class Panel:
+class Panel(Struct):
     """A plot; with several groups the reader chooses one."""
 
     title: str

@@ -6,7 +6,7 @@ import numpy as np
 
 from nivel.judge.after.checks import joints
 from nivel.known import Result
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.report.beam_shapes import beam_nodes, stations
 from nivel.report.element_panels import control, couplings, drivers, forces, sensors
 from nivel.report.panel import GROUPS, MOST, TOGETHER, Array, Curve, Group, Panel, components, left_out
@@ -15,8 +15,7 @@ from nivel.results.scales import blocks, bodies, rotated
 NEGLIGIBLE = 1e-9  # of the largest reaction in the machine, a torque counted as a force at its size: round-off
 
 
-@dataclass(frozen=True)
-class PeakReaction:
+class PeakReaction(Struct):
     """Largest force [N] and torque [N m] between the bodies of a joint, with their times [s]; 0 where negligible.
 
     unique : False where redundant constraints share the load in more than one way.

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 560.0, 300.0, 62.0, 14.0, 12.0, 42.0
@@ -18,8 +18,7 @@ TONES: Final = 8
 MOST: Final = 1200  # points of a curve
 
 
-@dataclass(frozen=True)
-class Axis:
+class Axis(Struct):
     """Values from `low` to `high` on pixels from `start` to `end`."""
 
     low: float
@@ -52,8 +51,7 @@ class Axis:
         return [Tick(value, f"{value:.6g}") for value in values]
 
 
-@dataclass(frozen=True)
-class Line:
+class Line(Struct):
     """A curve (n,) with a label; gaps where y is not a number."""
 
     label: str
@@ -180,16 +178,14 @@ FEW_DECADES = 2.2  # an axis this short is labelled at 2 and 5 too
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-@dataclass(frozen=True)
-class Tick:
+class Tick(Struct):
     """A line of the grid at `value`, with its label or none."""
 
     value: float
     label: str
 
 
-@dataclass(frozen=True)
-class LogAxis:
+class LogAxis(Struct):
     """Values from `low` to `high` (positive) on pixels from `start` to `end`."""
 
     low: float

@@ -7,7 +7,7 @@ from typing import Any
 
 from nivel.judge.after.report import titles
 from nivel.known import Result
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.report.beam_shapes import beam_nodes
 from nivel.results.frames.summary import in_words
 from nivel.results.trust import NOT_VERIFIED, Trust, Verdict
@@ -40,8 +40,7 @@ VERDICTS: dict[Verdict, str] = {
 UNVERIFIED, IN_PART = "Not verified", "Verified in part"
 
 
-@dataclass(frozen=True)
-class Headline:
+class Headline(Struct):
     """The two answers on top: did it run, can I trust it. trust_text : how exact it is."""
 
     outcome: str
@@ -52,8 +51,7 @@ class Headline:
     trust_text: str
 
 
-@dataclass(frozen=True)
-class Gauge:
+class Gauge(Struct):
     """A number on a logarithmic scale from 1e-16 to 1, in percent of the scale's length."""
 
     value: float
@@ -61,8 +59,7 @@ class Gauge:
     amber: float
 
 
-@dataclass(frozen=True)
-class TrustLine:
+class TrustLine(Struct):
     """An item of the trust report: its name, its statement without the name, and its gauge where it is a number."""
 
     name: str
@@ -88,8 +85,7 @@ def headline(result: Result) -> Headline:
     return Headline(outcome, verdict, text, believed.answer, believed.tone, believed.text)
 
 
-@dataclass(frozen=True)
-class Trusted:
+class Trusted(Struct):
     """Whether to believe a result: the answer and its colour, how exact it is, and the lines of its trust report."""
 
     answer: str

@@ -14,7 +14,7 @@ from nivel.errors import ModelError
 from nivel.files.target import keep_sources, write_file
 from nivel.judge.after.report import thresholds_of
 from nivel.known import Result
-from nivel.lazy import asdict, dataclass, nivel
+from nivel.lazy import Struct, asdict, nivel
 from nivel.looks.diagram import block_diagram
 from nivel.looks.poses import upwards
 from nivel.machine.machine_record import MachineRecord
@@ -37,8 +37,7 @@ OUTPUTS, PARAMETERS = 6, 12  # that are drawn; others stand in the result
 CHANGE = 0.01  # of the parameter, for which the change of the curve is told
 
 
-@dataclass(frozen=True)
-class Bar:
+class Bar(Struct):
     """One parameter. change : of the curve at the end for 1 % more of the parameter, as a share of its range. width, left : of the bar, as
     shares of the drawing."""
 
@@ -48,8 +47,7 @@ class Bar:
     left: float
 
 
-@dataclass(frozen=True)
-class Tornado:
+class Tornado(Struct):
     """The bars of one curve, the longest first."""
 
     name: str

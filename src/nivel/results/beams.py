@@ -13,7 +13,7 @@ from nivel.elements.beams.exact import gauss
 from nivel.elements.beams.gradients import gradients, lengths_of, line_at, unstressed_vectors
 from nivel.errors import ModelError
 from nivel.known import Result
-from nivel.lazy import dataclass, nivel, replace, scipy, xarray
+from nivel.lazy import Struct, nivel, replace, scipy, xarray
 from nivel.machine.core.record import unknown_word
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
@@ -174,8 +174,7 @@ def _cable(beam: Beam, v: Array, axes: Array) -> Felt:
     )
 
 
-@dataclass(frozen=True)
-class Felt:
+class Felt(Struct):
     """What a beam feels at times t and points p: the Gauss points of its elements, or where its segments meet.
 
     share : (p,) of the length. weight : (p,) [m]. strain : (t, p, 6) Γ [1] and Κ [1/m], axes of the section, beyond those of the unstressed

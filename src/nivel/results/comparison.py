@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 
 from nivel.errors import ModelError
 from nivel.files.target import write_page, write_text
-from nivel.lazy import asdict, dataclass, field, fields, provided, replace
+from nivel.lazy import Struct, asdict, field, fields, provided, replace
 from nivel.results.comparison_table import as_html, as_text
 from nivel.results.trust import Trust, storable
 from nivel.words.arguments import checked_methods
@@ -40,8 +40,7 @@ class Method(NamedTuple):
     stabilisation: str
 
 
-@dataclass(frozen=True)
-class Row:
+class Row(Struct):
     """One cell of the grid. What a cell has not, because it was refused or stopped, is None.
 
     step [s] : of integrators with a fixed one; tolerance : of the others. reason : why it was refused, or what stopped it.
@@ -95,8 +94,7 @@ class Row:
         return self.step if self.step is not None else self.tolerance or 0.0
 
 
-@dataclass(frozen=True)
-class Reference:
+class Reference(Struct):
     """A solution that others are held against. error : its own, estimated as `how` says, in the measure of motion errors. blind : why that
     estimate, and other methods too, may miss something, in words."""
 
@@ -107,8 +105,7 @@ class Reference:
     blind: str = ""
 
 
-@dataclass(frozen=True)
-class Spread:
+class Spread(Struct):
     """The two methods that are furthest apart, each at its finest step: labels, and their distance.
 
     methods : how many were looked at. left_out : completed methods that were not, because their own two finest runs are more than
@@ -123,8 +120,7 @@ class Spread:
 
 
 @checked_methods
-@dataclass(frozen=True)
-class Comparison:
+class Comparison(Struct):
     """A grid of runs of one machine.
 
     rows : a Row for every cell. references : what the motions were held against, none where nothing could be computed (`note` says

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.known import Result
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.core.vectors import Array
 from nivel.results.frames.contents import derivative, shape_of
 
@@ -37,8 +37,7 @@ QUARTERS: Final = (0.25, 0.5, 0.75)
 PROBED: Final = "between_frames"  # attribute of a result: JSON, by variable what its numbers are apart from their curves between frames
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(Struct):
     """time (n,) [s], never falling; value (n, m), rate (n, m) [1/s]; doubt (n - 1, m) : what the cubic of an interval may be off by; hidden
     (n - 1, m) : how far beyond its frames and cubic it may go. A jump from one frame to the next is a doubt, and hides no extreme."""
 

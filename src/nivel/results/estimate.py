@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 from nivel.machine.core.vectors import Array
 from nivel.results.frames.contents import shape_of
 from nivel.results.motion import common_frames
@@ -20,8 +20,7 @@ ROUND_OFF = 2.220446049250313e-16
 NO_NUMBER = re.compile(r"-?inf|nan")
 
 
-@dataclass(frozen=True)
-class Estimate:
+class Estimate(Struct):
     """Estimated errors of all numbers of a result up to some times.
 
     time : (k,) [s], rising; values : of each variable (k, …), the largest error up to that time. mean : of each variable (…), the mean

@@ -8,13 +8,12 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 from nivel.results.scales import Readable, blocks
 
 
-@dataclass(frozen=True)
-class Peak:
+class Peak(Struct):
     """The largest number of a history: its value, the name it belongs to, and the time in seconds."""
 
     value: float
@@ -105,8 +104,7 @@ DEFINITION: Final = (
 )
 
 
-@dataclass(frozen=True)
-class Motion:
+class Motion(Struct):
     """time (n,) [s], position (n, bodies, 3) [m], orientation (n, bodies, 4): Euler parameters of body frames in global axes."""
 
     time: Array

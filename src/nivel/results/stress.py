@@ -16,7 +16,7 @@ from nivel.flexible.body.body import ReducedBody
 from nivel.flexible.body.body_file import fingerprint, read_body
 from nivel.flexible.body.recovery import Cycle, Envelope, HotSpot, stations_at, stress_modes
 from nivel.known import Result
-from nivel.lazy import asdict, dataclass, nivel
+from nivel.lazy import Struct, asdict, nivel
 from nivel.machine.core.vectors import Array, Whole
 from nivel.results.motion import rotation_matrices
 from nivel.results.trust import Trust
@@ -181,8 +181,7 @@ class RecoveredBody:
 ATTRIBUTE = "flexible_bodies"
 
 
-@dataclass(frozen=True)
-class BodySource:
+class BodySource(Struct):
     """A flexible body of a run: its `file`, the places of the `modes` that were used among all of it, `fingerprint` of it with these."""
 
     name: str

@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import dataclass, field, xarray
+from nivel.lazy import Struct, field, xarray
 from nivel.machine.core.vectors import Array
 
 ENDED: Final = ("done", "stopped")
@@ -19,8 +19,7 @@ LEAST_LEFT: Final = 2  # variants beyond the coefficients of a response surface
 SOBOL: Final = "sobol-indices"
 
 
-@dataclass(frozen=True)
-class Table:
+class Table(Struct):
     """A study as a table, a row for each variant. values : (n,) of parameters, and of outputs, by name; words are numbered, and listed in
     `words`. ended : (n,) whether a variant came to its end."""
 
@@ -95,8 +94,7 @@ def _limits(facts: Mapping[str, Any]) -> tuple[float | None, float | None]:
     return None if least is None else float(least), None if most is None else float(most)
 
 
-@dataclass(frozen=True)
-class Share:
+class Share(Struct):
     """A share of variants, with its confidence interval of 95 % (Wilson 1927)."""
 
     count: int
@@ -136,8 +134,7 @@ def capability(table: Table, name: str) -> float:
     return min(distances) / (3.0 * deviation) if distances else np.nan
 
 
-@dataclass(frozen=True)
-class Surface:
+class Surface(Struct):
     """A response surface: a polynomial of the parameters, each from -1 at its least to 1 at its greatest value, fitted by least squares.
 
     powers (k, p) : exponents of the terms. coefficients (k,). predicted : coefficient of determination of values that were left out one by
@@ -214,8 +211,7 @@ def _fitted(
     return Surface(names, low, high, powers, coefficients, determined, predicted)
 
 
-@dataclass(frozen=True)
-class Effect:
+class Effect(Struct):
     """What an output is at the 5 % and the 95 % quantile of a parameter on the response surface, the others at their medians."""
 
     parameter: str
@@ -251,8 +247,7 @@ def _scaled(values: Array, found: Surface) -> Array:
     return 2.0 * (values - found.low) / (found.high - found.low) - 1.0
 
 
-@dataclass(frozen=True)
-class SobolIndices:
+class SobolIndices(Struct):
     """Shares of the variance of an output: `first` by a parameter alone, `total` with all its interactions, each (p,), with standard errors
     of a bootstrap. used : base samples that came to their end in all blocks, of `samples`."""
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from nivel.integrate.loop.run import HORIZON, TIME, Run
 from nivel.known import SoilUnit
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.core.vectors import Array
 
 ATTRIBUTE: Final = "terrain"  # of results
@@ -99,8 +99,7 @@ class TerrainLog:
         return json.dumps(out)
 
 
-@dataclass(frozen=True)
-class TerrainHistory:
+class TerrainHistory(Struct):
     """Heights of a soil during a run. start (rows along y, nodes along x) [m]. step [m] : of moves. time (k,) [s]. ends (k,) : numbers of
     moves up to each time. nodes (n,) : of `start` in rows, as what is added to the one before. moves (n,) : by so many steps. carried
     (k, forces) [m³] : by forces on the soil."""

@@ -9,7 +9,7 @@ from typing import Any, Final, Literal, NamedTuple
 
 import numpy as np
 
-from nivel.lazy import dataclass, field, fields, is_dataclass, replace
+from nivel.lazy import Struct, field, fields, is_dataclass, replace
 
 Verdict = Literal["green", "amber", "red"]
 NOT_VERIFIED: Final = "not verified"  # in place of green
@@ -18,8 +18,7 @@ ERRORS: Final = ("accuracy", "parts", "quantities", "verified")  # lines whose n
 ROUNDED: Final = 1e-9  # of the range of a number beside positions: what equations and sums round to
 
 
-@dataclass(frozen=True)
-class Threshold:
+class Threshold(Struct):
     """A number is green below `green`, amber below `amber`, red otherwise; NaN is red."""
 
     green: float
@@ -48,8 +47,7 @@ class Threshold:
         return f"green below {self.green:.0e}, {beyond}".replace("e-0", "e-")
 
 
-@dataclass(frozen=True)
-class Item:
+class Item(Struct):
     """One line of the trust report.
 
     fraction : what is held against `green` and `amber`; None where the item is not a number.
@@ -123,8 +121,7 @@ KEYS: Final = {
 }
 
 
-@dataclass(frozen=True)
-class Trust:
+class Trust(Struct):
     """The verdict on a result, its lines, and the numbers behind them in SI units.
 
     found : what each check has found, by its name: a mapping of its numbers, or a tuple of those. `KEYS` has names for some of

@@ -2,7 +2,7 @@
 
 from typing import Any, Final
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.view.coordinate_places import coordinate_place, triple
 from nivel.view.records import Body, Force, ForceLook, Joint, Triple, Winding
 
@@ -18,8 +18,7 @@ AT_JOINT: Final[dict[str, tuple[ForceLook, ForceLook]]] = {
 HELD: Final[tuple[ForceLook, ForceLook]] = ("ring", "slide")  # of friction, stops and whatever else works there
 
 
-@dataclass(frozen=True)
-class Acted:
+class Acted(Struct):
     """What forces act on: bodies and joints of a machine. record : of the machine, which may be empty. `places` : bodies, -1 the ground."""
 
     scene: dict[str, Any]

@@ -11,7 +11,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.looks.poses import rotation
 from nivel.machine.core.vectors import Array
 from nivel.view.coordinate_places import coordinate_place
@@ -28,8 +28,7 @@ LARGEST: Final = 1e30  # [N or N m] beyond it nothing is drawn
 BETWEEN: Final = ("spring-damper", "pair-force")
 
 
-@dataclass(frozen=True)
-class Traced:
+class Traced(Struct):
     """An arrow and its vectors (n, 3), global axes [N or N m]; places (n, 3) [m] where it stands, where that is no point of the body."""
 
     owner: str
@@ -41,8 +40,7 @@ class Traced:
     places: Array | None = None
 
 
-@dataclass(frozen=True)
-class Moments:
+class Moments(Struct):
     """Poses at the frames: position (n, B, 3), rotation matrices A (n, B, 3, 3), time (n,)."""
 
     position: Array

@@ -16,7 +16,7 @@ import numpy as np
 from nivel.errors import Fault, ModelError
 from nivel.extras import is_installed, require
 from nivel.files.target import write_file
-from nivel.lazy import PIL, dataclass, imageio_ffmpeg
+from nivel.lazy import PIL, Struct, imageio_ffmpeg
 from nivel.view.browser import Tab, require_browser, tab
 from nivel.view.page import page_of
 from nivel.view.sources import Source
@@ -29,8 +29,7 @@ MOST_FRAMES: Final = 5000
 NO_FFMPEG: Final = "an .mp4 film needs ffmpeg: install it, or pip install 'nivel[film]'; a .gif or a page (--export scene.html) needs none"
 
 
-@dataclass(frozen=True)
-class Look:
+class Look(Struct):
     """How stills and films look. rate : frames a second of film. speed : seconds of motion in one of film. colours : the quantity that
     beams or flexible bodies show, or empty."""
 

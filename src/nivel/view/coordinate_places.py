@@ -4,13 +4,12 @@ from typing import Any
 
 import numpy as np
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, Kind, UnknownCoordinateError, find
 from nivel.view.records import Joint, Triple
 
 
-@dataclass(frozen=True)
-class CoordinatePlace:
+class CoordinatePlace(Struct):
     """A coordinate's joint and word; axis : in the first body's frame; kind : whether it turns about the axis or goes along it."""
 
     joint: Joint

@@ -4,7 +4,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.looks.poses import Pose, body_poses, in_space, rotation, sliding_axes, turning_axes, upwards
 from nivel.looks.solids import attached, held_points, reach_of, shapes_of
 from nivel.looks.viewpoint import choose_view, is_planar
@@ -21,8 +21,7 @@ BEYOND: Final = 1e15  # [m] a run that went further than machines may be long (s
 NOTHING: Final = np.empty((0, 3))
 
 
-@dataclass(frozen=True)
-class Extent:
+class Extent(Struct):
     """Where a machine is during its motion: box from low to high, origin of the numbers sent, length for signs, first view."""
 
     origin: Triple

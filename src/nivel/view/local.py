@@ -3,11 +3,10 @@
 A place is a byte of the machine's memory, counted from its begin. A column is a number's place in a frame of the run.
 """
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 
 
-@dataclass(frozen=True)
-class LocalLoop:
+class LocalLoop(Struct):
     """What the loop is called with. Codes are numbers in `LocalMachine.codes`, the others places.
 
     drive, advance, evaluate, correct, step, observe : codes. machine, history, session : records. y, rate, clock, counter : arrays of the
@@ -34,8 +33,7 @@ class LocalLoop:
     failed: int
 
 
-@dataclass(frozen=True)
-class LocalSession:
+class LocalSession(Struct):
     """What the loop shares with its operator: places of its arrays, and the numbers in `control`. rows, width : of the ring of frames."""
 
     control: int
@@ -48,16 +46,14 @@ class LocalSession:
     shown: int
 
 
-@dataclass(frozen=True)
-class LocalInput:
+class LocalInput(Struct):
     """An input that a page moves. rest : where it goes when nobody operates."""
 
     name: str
     rest: float
 
 
-@dataclass(frozen=True)
-class LocalNumber:
+class LocalNumber(Struct):
     """A word y of the memory that follows from parameters: y = sign |z|^power, or z where power is 1, with z = constant + Σ P(t)/Q(t).
     terms : (parameter, factors of the powers of t in P, those in Q); t = (x - centre)/width of the parameter x."""
 
@@ -68,8 +64,7 @@ class LocalNumber:
     terms: list[tuple[int, list[float], list[float]]]
 
 
-@dataclass(frozen=True)
-class LocalParameters:
+class LocalParameters(Struct):
     """Numbers that follow from parameters, which a page changes at the start. values : of the parameters. frames : centre and width of
     each. energy : place of the energies at the start."""
 
@@ -79,8 +74,7 @@ class LocalParameters:
     energy: int
 
 
-@dataclass(frozen=True)
-class LocalFailure:
+class LocalFailure(Struct):
     """A status that ends a run, and what is said of it, with {} for one of the names."""
 
     status: int
@@ -88,8 +82,7 @@ class LocalFailure:
     names: list[str]
 
 
-@dataclass(frozen=True)
-class LocalPicture:
+class LocalPicture(Struct):
     """Columns of what is drawn: first and last of positions, orientations and modal coordinates, and of the gauges. origin : from which
     positions are counted [m]."""
 
@@ -101,8 +94,7 @@ class LocalPicture:
     traced: list[int]
 
 
-@dataclass(frozen=True)
-class Watched:
+class Watched(Struct):
     """A number that the light looks at in every frame: the sum of columns times factors, counted from the start, or where not `summed` the
     largest magnitude among them. It is compared with a scale: the largest of `floor`, of magnitudes of `against`, of those of `changes`
     counted from the start, and with `speed` above 0 that many times the largest speed.
@@ -122,8 +114,7 @@ class Watched:
     amber: float
 
 
-@dataclass(frozen=True)
-class Speeds:
+class Speeds(Struct):
     """What the largest speed of a frame is found from: |v| + |omega| reach of each body. slow : a speed [m/s] times the time [s] since the
     start, below which a machine is at rest."""
 
@@ -133,8 +124,7 @@ class Speeds:
     slow: float
 
 
-@dataclass(frozen=True)
-class LocalMachine:
+class LocalMachine(Struct):
     """A machine, its memory and machine code apart. bytes : of its memory. inner : (word, place whose address belongs there). outer :
     (word, code whose address belongs there). codes : names of functions of the module.
 

@@ -92,8 +92,7 @@ MOST_MOMENTS: Final = 500  # events that are marked
 LARGEST: Final = 1e30  # [m] beyond it bodies are not drawn: 32-bit numbers could not hold the squares in between
 
 
-@dataclass(frozen=True)
-class Budget:
+class Budget(Struct):
     """Bytes that a motion, its columns, the strains of beams and the modal stresses of flexible bodies may take before compression; frames
     that are shown and moves of terrains at most; whether arrows come along, and the list of what can be plotted."""
 
@@ -208,8 +207,7 @@ def _coloured(
     return bending, felt, [*missing, *more]
 
 
-@dataclass(frozen=True)
-class Vectors:
+class Vectors(Struct):
     """values (n, V, 3) of the frames; the arrows that they are, and the joints with the places of their violations."""
 
     values: Array

@@ -40,8 +40,7 @@ MOVES: Final = 6
 COLUMN: Final = 3  # binary message: number of the request (32 bits), 4 bytes unused, then a column of 32-bit floats
 
 
-@dataclass(frozen=True)
-class Packed:
+class Packed(Struct):
     """An array in the block of bytes. kind : f4, f8, u4 or u2, little-endian. start : its first byte.
 
     The bytes are shuffled, which compresses better: the first bytes of all numbers, then the second bytes, and so on.
@@ -52,8 +51,7 @@ class Packed:
     start: int
 
 
-@dataclass(frozen=True)
-class Steps:
+class Steps(Struct):
     """Numbers rounded to 65536 even steps: low[i] + step[i] * numbers[i, …]."""
 
     numbers: Packed
@@ -61,8 +59,7 @@ class Steps:
     step: list[float]
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(Struct):
     """A solid in the body frame with its centre at `centre`.
 
     size : box: along x, y, z; cylinder, capsule: radius, length; tube: outer, inner radius, length; sphere: radius; ellipsoid: semi-axes;
@@ -80,8 +77,7 @@ class Part:
     colour: str = ""
 
 
-@dataclass(frozen=True)
-class Body:
+class Body(Struct):
     """A body. links : points of its frame to which automatic links lead from the centre of mass. held : where joints hold it.
 
     automatic : it is drawn as a ball with links where it has no parts; not so where it deforms or is part of a sweep.
@@ -97,8 +93,7 @@ class Body:
     facts: list[tuple[str, str]] = field(default_factory=list)
 
 
-@dataclass(frozen=True)
-class Stress:
+class Stress(Struct):
     """Von Mises stress [Pa] of a flexible body: that of Σ q_k modes[k] at stations, the largest of those of a vertex.
 
     modes (modes, 6, stations) : xx, yy, zz, xy, yz, zx. stations (n, 2) : of each vertex the first, and the one after the last; equal
@@ -110,8 +105,7 @@ class Stress:
     high: float
 
 
-@dataclass(frozen=True)
-class Flexible:
+class Flexible(Struct):
     """A mesh that deforms: a vertex is vertices + Σ q_k modes[k], in the body's frame; q are modal coordinates of the frame.
 
     vertices (n, 3), triangles (m, 3), modes (modes, n, 3). first : place of its first modal coordinate among those of the frame.
@@ -133,8 +127,7 @@ class Flexible:
     stress: Stress | None = None
 
 
-@dataclass(frozen=True)
-class Joint:
+class Joint(Struct):
     """A joint: points and axes on its two bodies, in their frames. slot : direction of a slot in the second body.
 
     place : at which of the two points its sign stands. rod : it is a massless link between them.
@@ -156,8 +149,7 @@ class Joint:
     facts: list[tuple[str, str]] = field(default_factory=list)
 
 
-@dataclass(frozen=True)
-class Winding:
+class Winding(Struct):
     """How a rope runs around wheels at its points. carrier : number of the point whose body carries their `axis`, in its frame.
 
     radii : of each point, positive where the rope runs right-handed about the axis, 0 without a wheel. arcs : angles [rad] on the
@@ -172,8 +164,7 @@ class Winding:
     fixed: tuple[Triple, Triple]
 
 
-@dataclass(frozen=True)
-class Force:
+class Force(Struct):
     """A force element, or a driver. points : of the two ends, or the one where it acts, or of the joint that it works on; none where
     that is not known. axis : of a coil or of what works on a joint, or normal of a contact's plane; in the first body's frame, a normal
     in the second's.
@@ -197,8 +188,7 @@ class Force:
     winding: Winding | None = None
 
 
-@dataclass(frozen=True)
-class Wheel:
+class Wheel(Struct):
     """A pitch circle on a body, in its frame."""
 
     body: int
@@ -207,8 +197,7 @@ class Wheel:
     radius: float
 
 
-@dataclass(frozen=True)
-class Track:
+class Track(Struct):
     """The pitch line of a rack on a body, in its frame: as far as `half` to both sides of a point."""
 
     body: int
@@ -217,16 +206,14 @@ class Track:
     half: float
 
 
-@dataclass(frozen=True)
-class End:
+class End(Struct):
     """A point of a body, in its frame."""
 
     body: int
     point: Triple
 
 
-@dataclass(frozen=True)
-class Coupling:
+class Coupling(Struct):
     """A gear, belt, rack or other equation between joint coordinates. belt : how one runs about the two wheels.
 
     joined : points that a line joins where no wheels are known.
@@ -241,8 +228,7 @@ class Coupling:
     facts: list[tuple[str, str]] = field(default_factory=list)
 
 
-@dataclass(frozen=True)
-class Sweep:
+class Sweep(Struct):
     """A section drawn along a line through frames of bodies, in their order, which bends with them: a beam, a hose, a rope.
 
     bodies : two or more. points, axes : in the frame of each body where the line passes, and its direction there. section : corners
@@ -262,8 +248,7 @@ class Sweep:
     smooth: bool = True
 
 
-@dataclass(frozen=True)
-class Load:
+class Load(Struct):
     """Soil in a bucket, about a point of its frame. half : from there to the end of its edge. slot : of the volumes that are carried."""
 
     slot: int
@@ -272,8 +257,7 @@ class Load:
     half: Triple
 
 
-@dataclass(frozen=True)
-class Terrain:
+class Terrain(Struct):
     """Ground that deforms: `heights` [m] of nodes in rows along x over a plane through `corner`; cells have the sides `along` and `across`.
 
     Nodes move by whole steps [m]. time (k,) [s] : of moments, none where moves come as messages; ends (k,) : numbers of moves up to each.
@@ -294,8 +278,7 @@ class Terrain:
     carried: Packed
 
 
-@dataclass(frozen=True)
-class Quantity:
+class Quantity(Struct):
     """What colours of beams can show, from `low` to `high` in the motion. rows : one of the numbers of a point, or the length of several.
 
     A point has 12: strains (stretch, two shears), twist and two curvatures; then force and moment of the section in its axes.
@@ -308,8 +291,7 @@ class Quantity:
     high: float
 
 
-@dataclass(frozen=True)
-class Felt:
+class Felt(Struct):
     """What points along a sweep feel. sweep : its place in the stage. places (p,) : numbers of frames of bodies, with fractions, ascending.
 
     strain (6, n, p) : of the frames of `Sections.time`. stiffness (6, 6) : force and moment of a point are stiffness times its strain.
@@ -321,8 +303,7 @@ class Felt:
     stiffness: list[list[float]]
 
 
-@dataclass(frozen=True)
-class Sections:
+class Sections(Struct):
     """What the sections of beams feel at some frames of the motion, `time` (n,), and what of it colours can show."""
 
     time: Packed
@@ -330,8 +311,7 @@ class Sections:
     beams: list[Felt]
 
 
-@dataclass(frozen=True)
-class Arrow:
+class Arrow(Struct):
     """A vector of the frames drawn as an arrow at a point of a body. vector : its number among the vectors of the frame. place : number of
     another one that is the point of space where it stands at each moment, in place of `point`; -1 where there is none.
 
@@ -350,8 +330,7 @@ class Arrow:
     place: int = -1
 
 
-@dataclass(frozen=True)
-class Marker:
+class Marker(Struct):
     """A named point of a body, to be traced; x_axis, axis : of its frame, x and z, in the body's."""
 
     name: str
@@ -361,8 +340,7 @@ class Marker:
     axis: Triple = (0.0, 0.0, 1.0)
 
 
-@dataclass(frozen=True)
-class Layout:
+class Layout(Struct):
     """Floats of a frame: 7 a body (position, Euler parameters scalar first), then modal coordinates, then vectors of 3."""
 
     bodies: int
@@ -371,8 +349,7 @@ class Layout:
     width: int
 
 
-@dataclass(frozen=True)
-class Viewpoint:
+class Viewpoint(Struct):
     """Where to look from at first: unit vectors. flat : the machine lies in a plane, which is seen along its normal."""
 
     right: Triple
@@ -381,8 +358,7 @@ class Viewpoint:
     flat: bool
 
 
-@dataclass(frozen=True)
-class Column:
+class Column(Struct):
     """A variable that can be plotted: one number a frame. owner : element that it belongs to, empty for the whole machine.
 
     values : where the package has it; else it is asked for.
@@ -394,16 +370,14 @@ class Column:
     values: Packed | None = None
 
 
-@dataclass(frozen=True)
-class Moment:
+class Moment(Struct):
     """Something that happened: an event of the run."""
 
     name: str
     time: float
 
 
-@dataclass(frozen=True)
-class Coordinate:
+class Coordinate(Struct):
     """A joint coordinate that may be moved by hand, between low and high. free : it can move at all."""
 
     name: str
@@ -415,8 +389,7 @@ class Coordinate:
     free: bool
 
 
-@dataclass(frozen=True)
-class Motion:
+class Motion(Struct):
     """time (n,) of the frames, frames (width, n). load (n,) : of equilibria the load factor, while time is the place along their path.
 
     total : frames of the result; every `stride`th is here.
@@ -429,8 +402,7 @@ class Motion:
     load: Packed | None = None
 
 
-@dataclass(frozen=True)
-class Stage:
+class Stage(Struct):
     """Everything that is drawn of one machine. origin : the point of the global frame from which all positions are counted.
 
     up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by.
@@ -471,8 +443,7 @@ class Stage:
     motion: Motion | None = None
 
 
-@dataclass(frozen=True)
-class Control:
+class Control(Struct):
     """An input of a live machine, and what moves it. stick, raises, lowers : empty where there is none. axis, button : -1 likewise.
 
     label : its name for people. hold : it stays where it is left, and does not go back to rest.
@@ -498,8 +469,7 @@ class Control:
     exponent: float
 
 
-@dataclass(frozen=True)
-class Gauge:
+class Gauge(Struct):
     """A number that a live machine shows. In a frame the gauges stand behind what `Layout` says, then the values of the controls.
 
     label : its name for people. low, high : ends of its scale, where they are known. limit : magnitude beyond which it warns.
@@ -513,8 +483,7 @@ class Gauge:
     limit: float | None
 
 
-@dataclass(frozen=True)
-class Parameter:
+class Parameter(Struct):
     """A number of a machine that is in the page, which may be changed before it begins. least : the smallest value that it takes."""
 
     name: str
@@ -523,8 +492,7 @@ class Parameter:
     least: float
 
 
-@dataclass(frozen=True)
-class Package:
+class Package(Struct):
     """All that the page shows. mode : playback of whole motions, a machine moved by hand, or frames as they come.
 
     stages : the first is the machine, others are drawn as ghosts over it. controls, gauges, parameters : of a live machine.
@@ -543,16 +511,14 @@ class Package:
     parameters: list[Parameter] = field(default_factory=list)
 
 
-@dataclass(frozen=True)
-class Note:
+class Note(Struct):
     """From the server: a sentence for the user."""
 
     type: Literal["note"]
     text: str
 
 
-@dataclass(frozen=True)
-class Moved:
+class Moved(Struct):
     """From the server, after a move: values of all coordinates now, and why it could not be made, or an empty text."""
 
     type: Literal["moved"]
@@ -560,8 +526,7 @@ class Moved:
     problem: str
 
 
-@dataclass(frozen=True)
-class Refused:
+class Refused(Struct):
     """From the server: why a column that was asked for does not come."""
 
     type: Literal["refused"]
@@ -569,8 +534,7 @@ class Refused:
     problem: str
 
 
-@dataclass(frozen=True)
-class Status:
+class Status(Struct):
     """From the server, some times a second: how a live machine is.
 
     time : simulated [s]. speed : simulated over real time. driver : who operates it. watches : why this page can only watch, or empty.
@@ -598,16 +562,14 @@ class Status:
     reasons: list[str]
 
 
-@dataclass(frozen=True)
-class Shown:
+class Shown(Struct):
     """From the page: the frame with this number is on the screen; the next may come."""
 
     type: Literal["shown"]
     frame: int
 
 
-@dataclass(frozen=True)
-class Want:
+class Want(Struct):
     """From the page: send the column `name` of a stage under this request number."""
 
     type: Literal["want"]
@@ -616,8 +578,7 @@ class Want:
     name: str
 
 
-@dataclass(frozen=True)
-class Move:
+class Move(Struct):
     """From the page: move a joint coordinate to a value."""
 
     type: Literal["move"]
@@ -625,23 +586,20 @@ class Move:
     value: float
 
 
-@dataclass(frozen=True)
-class Reset:
+class Reset(Struct):
     """From the page: put the machine back as it was assembled."""
 
     type: Literal["reset"]
 
 
-@dataclass(frozen=True)
-class Drive:
+class Drive(Struct):
     """From the page that operates a live machine, again and again: wanted values of all controls."""
 
     type: Literal["drive"]
     values: list[float]
 
 
-@dataclass(frozen=True)
-class Hold:
+class Hold(Struct):
     """From the page that operates, again and again while it holds a body (on 1): the point of it, in its frame, and where that is
     pulled, counted from the origin of the stage [m]. Once when it lets go (on 0)."""
 
@@ -652,16 +610,14 @@ class Hold:
     on: int
 
 
-@dataclass(frozen=True)
-class Take:
+class Take(Struct):
     """From the page: it wants to operate the machine (on 1), or lets go of it (0)."""
 
     type: Literal["take"]
     on: int
 
 
-@dataclass(frozen=True)
-class Command:
+class Command(Struct):
     """From the page that operates: run, pause, step, reset, save, restore, or speed with its number. Where the machine is in the page,
     table, too."""
 
@@ -670,8 +626,7 @@ class Command:
     number: float
 
 
-@dataclass(frozen=True)
-class Adjust:
+class Adjust(Struct):
     """From the page, where the machine is in it: another value of a parameter, with which the machine begins anew."""
 
     type: Literal["adjust"]

@@ -9,7 +9,7 @@ import numpy as np
 
 from nivel.elements.joints import drawn
 from nivel.known import TerrainHistory
-from nivel.lazy import dataclass, nivel, replace
+from nivel.lazy import nivel, replace
 from nivel.looks.poses import slides_on_beam, stands_at_second
 from nivel.looks.solids import colour_of, colour_of_body, held_points, link_ends, shapes_of
 from nivel.machine.bodies.surface import surface_arrays
@@ -46,7 +46,6 @@ COURSE: Final[dict[str, Kind]] = {
 MOMENTS: Final = 100  # that are looked at for the largest displacement
 
 
-@dataclass(frozen=True)
 class Cast(Acted):
     """A machine's elements as the page draws them, and where they are found by name."""
 

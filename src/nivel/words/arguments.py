@@ -15,7 +15,7 @@ from types import FunctionType, NoneType, UnionType
 from typing import Any, Final, Literal, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints, is_typeddict
 
 from nivel.errors import Fault, refuse
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.words.wording import shown, unknown_word
 
 Given = ParamSpec("Given")
@@ -105,8 +105,7 @@ def plain(value: Any) -> Any:
     return value.item() if getattr(value, "shape", None) == () and hasattr(value, "dtype") else value
 
 
-@dataclass(frozen=True)
-class _Signature:
+class _Signature(Struct):
     """What calls of a function are held against.
 
     types : of its parameters. unnamed : names of those that may be given without one; rest : of the one that takes all further ones.

@@ -18,7 +18,7 @@ from nivel.elements.joints import JOINTS
 from nivel.errors import Fault, ModelError, refuse
 from nivel.files.joint_parts import rotors_of
 from nivel.kernels.bodies.driven_turn import TURN_X
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.bodies.inertia import point_mass_inertia
 from nivel.machine.core.orientation import euler_parameters_from_matrix
 from nivel.machine.core.placement import marker_frame
@@ -114,8 +114,7 @@ TOLD = 1e-9
 GAP, GAP_OF_DIRECTIONS = 0.1, 0.5
 
 
-@dataclass(frozen=True)
-class Assembly:
+class Assembly(Struct):
     """An assembled state and how far it is from the given one.
 
     y : state. reference : joint angles and other measured coordinates there. gap : largest violation of a position row as given
@@ -286,8 +285,7 @@ def _gap(system: System, row: int) -> str:
 # Mass, centre of mass and inertia of a machine, or of some of its bodies, as assembled, about any marker.
 
 
-@dataclass(frozen=True)
-class MassProperties:
+class MassProperties(Struct):
     """mass [kg] of `bodies`; centre_of_mass (3,) [m] from the point of `about`; inertia (3, 3) [kg m²] about this point, central_inertia
     about the centre of mass; all along the axes of `about`. Products carry the minus sign of the tensor: xy = -∫ x y dm.
 

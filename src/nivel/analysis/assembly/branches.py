@@ -9,7 +9,7 @@ import numpy as np
 from nivel.analysis.assembly.closing import Index, close_positions
 from nivel.analysis.assembly.equations import MotionEquations, change_between, equations, moved
 from nivel.analysis.assembly.redundancy import DEPENDENT, scaled_jacobian
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.system import Array
 
@@ -19,8 +19,7 @@ LOOKED_AT, FAR, SAME = 24, 0.02, 0.1
 MOVES, MOST = 0.02, 3
 
 
-@dataclass(frozen=True)
-class _Motion:
+class _Motion(Struct):
     """A motion that is possible: its direction in the plane of free motions [rad], and changes of joint coordinates along it."""
 
     direction: float

@@ -29,7 +29,7 @@ from nivel.elements.circuits.volumes import VOLUME, mass_at
 from nivel.errors import Fault, refuse
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import NONE
-from nivel.lazy import dataclass, replace, scipy
+from nivel.lazy import Struct, replace, scipy
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.system import Array, System
 
@@ -52,8 +52,7 @@ LEAST_SPEED, MOST_SPEED = -1e-3, 2.0
 BEYOND = 1e-3
 
 
-@dataclass(frozen=True)
-class _Pair:
+class _Pair(Struct):
     """The nodes on both sides of actuators, in which they have their loads: B None where it is the open air.
 
     at_end : whether a piston between them is at the end of its stroke, where a stop can hold it.
@@ -118,8 +117,7 @@ def _refuse_strokes(machine: MachineRecord, system: System) -> None:
     refuse(faults)
 
 
-@dataclass(frozen=True)
-class _Loaded:
+class _Loaded(Struct):
     """Line `high` of a motor that carries a load: its pressure follows that of the line `low`, by `ratio` from `offset` [Pa] on."""
 
     high: int

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.assembly.equations import MotionEquations, moved
 from nivel.errors import Fault, ModelError
-from nivel.lazy import dataclass, scipy
+from nivel.lazy import Struct, scipy
 from nivel.system.system import Array
 
 Index = NDArray[np.int64]
@@ -41,8 +41,7 @@ class Aim(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class Wishes:
+class Wishes(Struct):
     """What the assembly has to respect beside the constraints.
 
     weight : (B,) how unwilling each body is to move. hold : (B,) bodies that are not moved. values, rates : of joint coordinates,

@@ -11,15 +11,14 @@ from numpy.typing import NDArray
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import NONE
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import cross
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.build import build
 from nivel.system.system import Array, Equations, System, parameter_rates
 
 
-@dataclass(frozen=True)
-class MotionEquations:
+class MotionEquations(Struct):
     """A system with its compiled `evaluate` and `normalise_state`; twin : its record on dual numbers, where implicit methods need one."""
 
     system: System

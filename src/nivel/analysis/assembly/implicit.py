@@ -19,7 +19,7 @@ from nivel.kernels.residual import tangent_entries as entries
 from nivel.kernels.residual.element_crossing import pass_nodes
 from nivel.kernels.tree.modal_nodes import pass_modes
 from nivel.kernels.tree.tree_nodes import pass_sliders
-from nivel.lazy import dataclass, nivel, replace, scipy
+from nivel.lazy import Struct, nivel, replace, scipy
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
 from nivel.system.elimination.factor_plan import TangentPlan, plan_tangent
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
@@ -32,8 +32,7 @@ Index = NDArray[np.integer]
 ROUNDINGS = 6.0
 
 
-@dataclass(frozen=True)
-class ResidualOptions:
+class ResidualOptions(Struct):
     """What a method asks of a residual.
 
     whole : module of one over a whole step; empty: that at a time. corners : times [s] at which functions of time have corners. shifted :

@@ -21,7 +21,7 @@ from nivel.kernels.core.arrays import lanes_of
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import FAMILIES, SHOWN, Family
 from nivel.kernels.record.record import MEASURE, NONE, RESIDUAL
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core import vectors
 from nivel.native.duals import DUAL, LANES
 from nivel.system.system import Array, parameter_rates
@@ -52,8 +52,7 @@ ROUND_OFF = 1e-12
 Reader = Callable[["Instant"], Lanes]
 
 
-@dataclass(frozen=True)
-class Slopes:
+class Slopes(Struct):
     """Derivatives in several directions, one a column.
 
     r (n, k), g (S, k), C, Cdot, Cddot (K, k) : of the equations. seen (m, k) : of what a reader reads.

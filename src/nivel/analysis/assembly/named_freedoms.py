@@ -10,7 +10,7 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
 from nivel.files.joint_parts import rotors_of
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.record import GROUND
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve
@@ -25,8 +25,7 @@ RANK: Final = 1e-9  # a singular value below this share of the largest counts as
 LARGEST: Final = 1_000_000  # entries of the Jacobian up to which free motions are found
 
 
-@dataclass(frozen=True)
-class Freedoms:
+class Freedoms(Struct):
     """Motions (Ṙ, ω̄) of all bodies, lengths in machine lengths. directions (f, 6 B) : unit motions that the constraints allow."""
 
     directions: Array
@@ -185,8 +184,7 @@ MARKED: Final = 0.05  # share of the largest motion of a coordinate from which a
 NEAR: Final = 1e-6  # share of the machine's size within which a point is on an axis
 
 
-@dataclass(frozen=True)
-class Freedom:
+class Freedom(Struct):
     """One freedom or several: `count`, in words, and how it can be removed where nothing is meant to move so (empty: by a driver)."""
 
     count: int

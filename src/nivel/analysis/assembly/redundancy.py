@@ -13,7 +13,7 @@ from nivel.analysis.assembly.closing import close_positions
 from nivel.analysis.assembly.equations import MotionEquations, change_between, equations, moved
 from nivel.errors import Fault, ModelError, refuse
 from nivel.kernels.core.status import OK
-from nivel.lazy import dataclass, scipy
+from nivel.lazy import Struct, scipy
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.flexible import Bending, bending_bodies
 from nivel.system.joint_frames import tilted_axes
@@ -30,8 +30,7 @@ CERTAIN = 1e-9
 ASIDE = 1e-3
 
 
-@dataclass(frozen=True)
-class Redundancy:
+class Redundancy(Struct):
     """Rank of the joint rows at the assembled position; bodies that bend may make rows independent that were not between rigid ones.
 
     redundant_rows : rows that add nothing to the rows named before them. non_unique_joints : joints with reactions that the equations
@@ -47,8 +46,7 @@ class Redundancy:
     singular_rows: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class ModalRows:
+class ModalRows(Struct):
     """Columns of C_q for the modes of `bending`; carried : flexible body and interface of every marker that is at one."""
 
     bending: Sequence[Bending]

@@ -24,7 +24,7 @@ from nivel.analysis.assembly.named_freedoms import LARGEST
 from nivel.analysis.assembly.redundancy import DEPENDENT, aside, dependent_rows, row_lengths, scaled_jacobian
 from nivel.elements.joints import JOINTS
 from nivel.kernels.solve.saddle import LEFT_OUT
-from nivel.lazy import dataclass, scipy
+from nivel.lazy import Struct, scipy
 from nivel.machine.core.record import GROUND
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.system import Array, System
@@ -175,8 +175,7 @@ APART: Final = 0.02
 COMPONENTS: Final = ("force x", "force y", "force z", "moment x", "moment y", "moment z")
 
 
-@dataclass(frozen=True)
-class ReactionFacts:
+class ReactionFacts(Struct):
     """Reaction of a joint along the axes of its first marker, on its first body: components that are unique, and the others that it
     transmits; ranges : (low, high) [N, N m] of each of these, by what is left out; empty where reactions are not known."""
 

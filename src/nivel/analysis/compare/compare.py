@@ -18,7 +18,7 @@ from nivel.analysis.run.simulate import run_in_memory
 from nivel.errors import ModelError
 from nivel.judge.after.report import assess, blindness
 from nivel.judge.after.subject import Methods, Run
-from nivel.lazy import asdict, dataclass, replace
+from nivel.lazy import Struct, asdict, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import changed
 from nivel.results.comparison import Comparison, Method, Reference, Row, Spread
@@ -42,8 +42,7 @@ LONGEST: Final = 10.0  # [s] a further level is not begun where its loop would t
 DISAGREE: Final = 10.0  # times the sum of both estimates: then neither is believed
 
 
-@dataclass(frozen=True)
-class Solution:
+class Solution(Struct):
     """A reference and its motion; size [m] and largest kinetic energy [J] of the machine in it."""
 
     facts: Reference

@@ -13,7 +13,7 @@ from nivel.analysis.plan.settings import FRAMES
 from nivel.analysis.progress.log import Listener
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings, changed
 from nivel.machine.settings.sweep import Axes
@@ -25,8 +25,7 @@ FEWEST_FRAMES: Final = 10  # a common output interval gives at least so many
 FINEST: Final = 10**12  # largest denominator of a step in seconds that is looked for
 
 
-@dataclass(frozen=True)
-class Cell:
+class Cell(Struct):
     """One run of the grid: step or tolerance, whichever its integrator has. Where it is refused, `plan` is None and `reason` says why."""
 
     method: Method
@@ -36,8 +35,7 @@ class Cell:
     reason: str = ""
 
 
-@dataclass(frozen=True)
-class Grid:
+class Grid(Struct):
     """All cells; interval [s] between their frames; coarsest [s] of their fixed steps, or the machine's own."""
 
     cells: tuple[Cell, ...]

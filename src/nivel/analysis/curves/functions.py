@@ -8,7 +8,7 @@ import numpy as np
 
 from nivel.kernels.record.program_bounds import WIDTH, find_bounds
 from nivel.known import FunctionCoupling
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 from nivel.machine.laws.functions import Sampling
 from nivel.machine.laws.python_law import PythonLaw
@@ -44,8 +44,7 @@ class Curve(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class Varying:
+class Varying(Struct):
     """A function of a part of a machine.
 
     name : as users know it, `push.vector.x`. of : name of the part in results, `force.push`. sampling, motion : as of
@@ -59,8 +58,7 @@ class Varying:
     motion: bool = False
 
 
-@dataclass(frozen=True)
-class ExpressionCurve:
+class ExpressionCurve(Struct):
     """An expression of a machine file."""
 
     expression: Expression
@@ -84,8 +82,7 @@ class ExpressionCurve:
         return PlacedProgram.of(self.expression.tree)
 
 
-@dataclass(frozen=True)
-class TableCurve:
+class TableCurve(Struct):
     """A table as straight lines between `points`, those of a smooth one close together."""
 
     table: Table
@@ -125,8 +122,7 @@ class TableCurve:
         return least, largest
 
 
-@dataclass(frozen=True)
-class LawCurve:
+class LawCurve(Struct):
     """A Python function, which can only be called."""
 
     law: PythonLaw
@@ -150,8 +146,7 @@ class LawCurve:
         return None
 
 
-@dataclass(frozen=True)
-class TurningCurve:
+class TurningCurve(Struct):
     """The angle of a coupling by inverse tangents, which goes on over turns along the time. It has no bounds: those of an inverse
     tangent are half a turn wide wherever a tangent has a pole."""
 
@@ -171,8 +166,7 @@ class TurningCurve:
         return None
 
 
-@dataclass(frozen=True)
-class SideOf:
+class SideOf(Struct):
     """The sign of a curve, as an event has it."""
 
     curve: Curve

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from nivel.analysis.curves.functions import Varying, varying
 from nivel.analysis.curves.path import Path, Steps, as_seen, cut_at_switches, path_of
 from nivel.integrate.facts import IntegratorFacts
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import TIME
@@ -37,8 +37,7 @@ FORGOTTEN = 1e-2
 FEATURE, SPLITS, MOST_FEATURES = 2048, 20, 32
 
 
-@dataclass(frozen=True)
-class Unseen:
+class Unseen(Struct):
     """name : of a function. share : of the integral of its magnitude, over a twentieth of the run, that was missed. At `time` [s] it
     changes by its whole range within `scale` [s], where steps are `step` [s] long. of : what it depends on, the time or a signal.
     hidden : share of the integral of its magnitude over the whole run that was missed where it has more than the steps look at: no finer
@@ -162,8 +161,7 @@ def _integrals(values: Array, length: Array) -> tuple[Array, Array]:
     return exact, np.where(changes, trapezoidal, np.abs(exact))
 
 
-@dataclass(frozen=True)
-class Places:
+class Places(Struct):
     """Where a function goes beyond what was sampled: numbers of steps (n,), ascending, and times in them (n,) [s]. whole : no place was
     left out because the search would have taken long."""
 

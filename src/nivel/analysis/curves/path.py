@@ -16,7 +16,7 @@ from nivel.analysis.curves.functions import ExpressionCurve, Varying, is_local
 from nivel.errors import ModelError
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import LEAST, PARTS
-from nivel.lazy import dataclass, replace, scipy
+from nivel.lazy import Struct, replace, scipy
 from nivel.machine.control.part import VALUE
 from nivel.machine.core.vectors import Array, cross
 from nivel.machine.laws.functions import functions_of
@@ -38,8 +38,7 @@ MOST_IN_PART = 2_000
 LEAST_FRAMES = 4
 
 
-@dataclass(frozen=True)
-class Steps:
+class Steps(Struct):
     """Begins (n,) [s] of steps and their lengths (n,) [s], ascending: all of the run, or of very many some."""
 
     begin: Array
@@ -82,8 +81,7 @@ def steps_between(ends: Array) -> Steps:
     return Steps(ends[:-1][::stride], np.diff(ends)[::stride])
 
 
-@dataclass(frozen=True)
-class Path:
+class Path(Struct):
     """The signals of one function along a run, at the times of its frames.
 
     curved : between frames they are cubic splines, else straight lines.

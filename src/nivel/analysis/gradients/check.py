@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.gradients.outputs import Array
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 
 # Parameters are moved by this share of their scales and by twice as much; where steps are chosen by a tolerance, by the cube root of that.
 STEP = 1e-4
@@ -42,8 +42,7 @@ class Slope(NamedTuple):
     range: float
 
 
-@dataclass(frozen=True)
-class Checked:
+class Checked(Struct):
     """How far the slopes of one output along all parameters can be trusted. errors : estimated, for a change of each by its scale. lights :
     green, amber or red."""
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError, gathered, refuse
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 from nivel.machine.study import parameter as study
 from nivel.machine.units.dimension import KINDS
@@ -134,8 +134,7 @@ REDUCTIONS: dict[str, Reduce] = {
 }
 
 
-@dataclass(frozen=True)
-class Output:
+class Output(Struct):
     """What is asked for. label : as it was written. name : of a curve of the result, or of an event. reduce : what of the curve; None: all
     of it, or the time of the event. is_event : whether it is the time of an event."""
 
@@ -192,8 +191,7 @@ def value_of(output: Output, result: Result) -> Array:
     return output.reduce(Moving(own, still)).value.reshape(values.shape[1:])
 
 
-@dataclass(frozen=True)
-class Parameter:
+class Parameter(Struct):
     """A number of a machine. value : in SI units. units : of it, empty where its field says none.
 
     scale : what its changes are measured by, |value|, or 1 where it is zero.

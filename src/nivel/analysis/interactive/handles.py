@@ -9,7 +9,7 @@ from nivel.analysis.assembly.closing import Aim
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.named_freedoms import Freedoms, coordinate_derivatives
 from nivel.elements.joints import JOINTS
-from nivel.lazy import dataclass, scipy
+from nivel.lazy import Struct, scipy
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.motion import rotation_matrices
 from nivel.system.system import Array
@@ -27,8 +27,7 @@ UPRIGHT: Final = 1e-6  # cosine of b below which a and c turn about one axis
 ALL_ANGLES: Final = frozenset(ANGLES)
 
 
-@dataclass(frozen=True)
-class TurnedFrame:
+class TurnedFrame(Struct):
     """The frame of body `second` seen from that of body `first`, -1 the ground; 3x3 axes of both frames in their bodies.
 
     Its coordinates x, y, z are those of the second body's origin and make sense from the ground only.
@@ -64,8 +63,7 @@ class TurnedFrame:
         return axes if body < 0 else rotation_matrices(q.reshape(-1, 7)[[body], 3:])[0] @ axes
 
 
-@dataclass(frozen=True)
-class FrameAim:
+class FrameAim(Struct):
     """Values wished for some axes of a frame: {axis: value}. size : [m] a length to weigh metres against radians."""
 
     frame: TurnedFrame
@@ -139,8 +137,7 @@ def _wrapped(angle: Array) -> Array:
     return (angle + np.pi) % (2.0 * np.pi) - np.pi
 
 
-@dataclass(frozen=True)
-class Wish:
+class Wish(Struct):
     """Values of joint coordinates (name, coordinate, wanted), and aims: as `closing.Wishes` has them."""
 
     values: tuple[tuple[str, int, float], ...] = ()
@@ -185,8 +182,7 @@ class Handle(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class MeasuredHandle:
+class MeasuredHandle(Struct):
     """A joint coordinate. place : among the coordinates that are measured."""
 
     name: str
@@ -220,8 +216,7 @@ class MeasuredHandle:
         return Wish(values=((self.name, self.place, value),))
 
 
-@dataclass(frozen=True)
-class FrameHandle:
+class FrameHandle(Struct):
     """Some axes of a frame: angles counted from the assembled position, coordinates from the global origin.
 
     size : [m] the machine's length.

@@ -17,7 +17,7 @@ from nivel.analysis.assembly.equations import MotionEquations, equations, moved
 from nivel.analysis.assembly.named_freedoms import Freedoms, coordinate_derivatives, freedoms
 from nivel.analysis.interactive.handles import Handle, Wish, further_handles, measured_handles
 from nivel.analysis.plan.beam_facts import with_stiff_beams
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beam_nodes import with_nodes
 from nivel.system.scene import scene
@@ -31,8 +31,7 @@ NEARER: Final = 1e-3  # among positions with the wished value the one that diffe
 TIME: Final = "time"  # moves what drivers prescribe
 
 
-@dataclass(frozen=True)
-class Movement:
+class Movement(Struct):
     """A number (or the time, of a machine with drivers) and how far it may be moved: [low, high] in `unit`."""
 
     name: str
@@ -43,8 +42,7 @@ class Movement:
     free: bool
 
 
-@dataclass(frozen=True)
-class Position:
+class Position(Struct):
     """A position that the machine can have: state, reference of its measured angles, states of its handles."""
 
     y: Array

@@ -14,7 +14,7 @@ from nivel.elements.forces.actuators import Motor
 from nivel.elements.forces.drive_lines import holds_by_capacity
 from nivel.elements.forces.friction import Friction
 from nivel.errors import Fault, ModelError, refuse
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.analyses import InverseSettings
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
@@ -25,8 +25,7 @@ from nivel.results.result import Result
 from nivel.system.system import Array
 
 
-@dataclass(frozen=True)
-class Actuator:
+class Actuator(Struct):
     """An effort on a joint coordinate. motor : force of the machine that it stands for, which then does not act itself; empty: none."""
 
     name: str
@@ -35,8 +34,7 @@ class Actuator:
     unit: str
 
 
-@dataclass(frozen=True)
-class Actuation:
+class Actuation(Struct):
     """actuators; weights (m,) : of their efforts in the norm that is made least; limits (m,) : greatest magnitudes, infinite for none.
     hold : drivers that go on holding what they prescribe, with efforts of their own."""
 

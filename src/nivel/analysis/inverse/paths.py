@@ -19,7 +19,7 @@ from nivel.analysis.inverse.mechanics import Mechanics
 from nivel.errors import Fault, ModelError, refuse
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Led
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.units.quantity import expression_fault, read_quantity, shown
 from nivel.machine.units.tree import ExpressionError
 from nivel.machine.uses.coordinate_reference import unknown_name
@@ -40,8 +40,7 @@ ASIDE = 1e-3
 LEAST_SHARE, RANK = 1e-4, 1e-6
 
 
-@dataclass(frozen=True)
-class Task:
+class Task(Struct):
     """What is wanted: a point, its places (T, 3) [m], its orientations (T, 3, 3) or None; low, high (f,) : limits of the independent
     coordinates; posture (f,) : preferred values, not a number where there is none; weights of position and orientation."""
 

@@ -32,7 +32,7 @@ from nivel.errors import Fault, ModelError, refuse
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Actuated
 from nivel.kernels.output.observe import observe
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import UnknownCoordinateError, resolve
 from nivel.results.analyses.efforts import Efforts
@@ -129,8 +129,7 @@ LEAST_RANK = 1e-9
 DONE = 1e-9
 
 
-@dataclass(frozen=True)
-class Least:
+class Least(Struct):
     """efforts (m,). missing (f,) : what of the generalised forces no efforts give. rank : of the matrix. limited : whether limits hold some
     back from doing what is asked."""
 

@@ -19,7 +19,7 @@ from nivel.analysis.kinematics.drive import TAKES_PART, determinant_sign, indepe
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Curve
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.analyses.mechanism import ConfigurationCurve, Turning
 from nivel.system.beam_nodes import with_nodes
@@ -35,8 +35,7 @@ BACK, LEAST, NOTHING = 1.5, 4, 1e-12
 STILL = 1e-9
 
 
-@dataclass(frozen=True)
-class _Place:
+class _Place(Struct):
     """A position: state, unit tangent (6 B,), joint coordinates and their rates along the tangent, references of angles."""
 
     y: Array

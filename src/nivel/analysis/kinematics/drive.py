@@ -19,7 +19,7 @@ from nivel.errors import Fault, ModelError, SolveError
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Reach
 from nivel.kernels.output.observe import observe
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.analyses import KinematicsSettings
 from nivel.results.analyses.mechanism import ConfigurationCurve, Range
@@ -135,8 +135,7 @@ LOOKED_AT = 72
 TAKES_PART = 0.3
 
 
-@dataclass(frozen=True)
-class Singularity:
+class Singularity(Struct):
     """passed : pairs of times [s] between which the determinant changes sign. least : the smallest singular value, as a share of that at
     the start, at `time` [s]; joints : whose rows depend on each other most there."""
 
@@ -146,8 +145,7 @@ class Singularity:
     joints: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class MovingState:
+class MovingState(Struct):
     """time [s], the state y, the accelerations v̇ (n,) of the bodies, and all joint coordinates; none where the motion has other ones."""
 
     time: float

@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 
 from nivel.analysis.assembly.instant import Instant
 from nivel.kernels.record.record import NONE
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.system.system import Array
 
 # shares by which principal moments and lengths are equal, and speeds nothing
@@ -25,16 +25,14 @@ ALIKE, STILL = 1e-9, 1e-9
 FREE = 6  # velocities of a body that no joint of the tree holds
 
 
-@dataclass(frozen=True)
-class TurnedAxes:
+class TurnedAxes(Struct):
     """turn (f, f) T, orthogonal; rate (f, f) Ṫ Tᵀ, over the free unknowns."""
 
     turn: Array
     rate: Array
 
 
-@dataclass(frozen=True)
-class SpinningBody:
+class SpinningBody(Struct):
     """A body that spins, its turns from velocity `first` on, its place from `place` on (NONE: a joint measures it).
 
     axes (3, 3) : of the body at the time `begin` [s]. omega (3,) [rad/s] : of P, global; None: P turns with the body.
@@ -61,8 +59,7 @@ class SpinningBody:
         yield self.first, P.T @ A, _cross(P.T @ (spin - omega))
 
 
-@dataclass(frozen=True)
-class Frames:
+class Frames(Struct):
     """The axes of all bodies that spin; none: the unknowns stay what they are."""
 
     bodies: tuple[SpinningBody, ...] = ()

@@ -31,7 +31,7 @@ from scipy.sparse.csgraph import connected_components
 from nivel.analysis.linearise.reduction import ROUND_OFF, Reduction
 from nivel.analysis.statics.linear import symmetric
 from nivel.elements.control.dynamics import LinearSystem
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Complex
 from nivel.system.system import Array
 
@@ -41,8 +41,7 @@ SYMMETRIC = 1e-9
 SLOW = 1e-6
 
 
-@dataclass(frozen=True)
-class Graded:
+class Graded(Struct):
     """A (n, n) in the columns of `basis` (n, n); entries below `noise` (n, n) are round-off."""
 
     A: Array
@@ -161,8 +160,7 @@ MOVES = 1e-6
 Index = NDArray[np.intp]
 
 
-@dataclass(frozen=True)
-class Eigen:
+class Eigen(Struct):
     """values (n,) in ascending order of magnitude; zero : (n,) exactly zero by structure; right, left (n, n), a column each, with
     leftᴴ right = 1 where values are simple. zeros : of each structural zero, the states that it moves. known (n,) : to how much [1/s] each
     value is, by round-off."""

@@ -34,7 +34,7 @@ from nivel.judge.after.other_elements import other_elements
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Linearisation, OtherVibrations, Sweep, Variant
 from nivel.judge.before.analyses import MOST, not_smooth
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.analyses import EQUILIBRIUM, ROTATION, LineariseSettings
 from nivel.results.analyses.linear_model import LinearModel
@@ -49,8 +49,7 @@ from nivel.words.wording import first_of
 NAMED = 6  # states in a sentence
 
 
-@dataclass(frozen=True)
-class _States:
+class _States(Struct):
     """Names and units of (s, w, x), and their sizes."""
 
     names: list[str]

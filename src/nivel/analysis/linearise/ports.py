@@ -21,7 +21,7 @@ from nivel.elements.forces.actuators import Motor
 from nivel.errors import Fault, ModelError, refuse
 from nivel.kernels.record.record import SENSE
 from nivel.kernels.signals import sensor
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.signals.input import State
@@ -45,8 +45,7 @@ UNITS: Final = {
 }
 
 
-@dataclass(frozen=True)
-class Opened:
+class Opened(Struct):
     """A machine whose commands are states. states : name of an input of its linear equations → (name of its state, unit).
 
     commands : those of its circuits that are inputs without being named.
@@ -122,8 +121,7 @@ PREFIXES = ("sensor", "hydraulics", "control")  # that may be left out
 T = TypeVar("T")
 
 
-@dataclass(frozen=True)
-class Output:
+class Output(Struct):
     """A number that the machine shows. read : it, from the twin of an instant whose markers and coordinates are measured."""
 
     name: str
@@ -131,8 +129,7 @@ class Output:
     read: Callable[[Instant], Lanes]
 
 
-@dataclass(frozen=True)
-class Input:
+class Input(Struct):
     """What acts on the machine. kind : effort (of `shown`, by its rate), drive (acceleration of a row) or state (its value).
 
     place : coordinate, row or state; body and axis of forces on a body.
@@ -321,8 +318,7 @@ MAKES = 1e-9
 ROUND_OFF = 1e-13
 
 
-@dataclass(frozen=True)
-class PressureStates:
+class PressureStates(Struct):
     """The states of volumes and the outputs of their pressures: (number of the state, name of the output)."""
 
     pairs: tuple[tuple[int, str], ...]

@@ -21,7 +21,7 @@ from scipy.linalg import lstsq, qr
 from nivel.analysis.assembly.instant import Instant, Reader, Slopes
 from nivel.analysis.linearise.axes import TurnedAxes
 from nivel.elements.control.dynamics import LinearSystem
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.system.system import Array, System
 
 # singular values of the constraints below this share of the largest are zero
@@ -33,8 +33,7 @@ ROUND_OFF = 1e-14
 Index = NDArray[np.intp]
 
 
-@dataclass(frozen=True)
-class Ports:
+class Ports(Struct):
     """Inputs of a machine: force (n, p) generalised forces of each, held (K, p) what it adds to C̈, opened : rows that inputs prescribe."""
 
     force: Array
@@ -42,8 +41,7 @@ class Ports:
     opened: NDArray[np.intp]
 
 
-@dataclass(frozen=True)
-class Held:
+class Held(Struct):
     """motions (f, h) : Z of the motions that all rows leave. by_row (f, K) : what a unit of each row asks for beside them.
     prescribed (f, k) : of rows that inputs prescribe."""
 

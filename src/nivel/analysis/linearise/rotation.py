@@ -20,7 +20,7 @@ from nivel.analysis.assembly.unknown_groups import unknown_name
 from nivel.analysis.run.prepared_state import Moment
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.kernels.record.record import NONE
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.core.vectors import cross
 from nivel.system.system import Array
 
@@ -31,8 +31,7 @@ STILL, ACROSS, RATES = 1e-9, 1e-9, 1e-6
 LONGEST, CLOSE, MOST, PARTS = 0.1, 1e-10, 40, (1, 4, 16)
 
 
-@dataclass(frozen=True)
-class Rotation:
+class Rotation(Struct):
     """omega (3,) [rad/s] about a line through `centre` (3,) [m]. held (n,) : velocities of joints that the ground holds."""
 
     omega: Array

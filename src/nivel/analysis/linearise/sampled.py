@@ -20,7 +20,7 @@ from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.linearise.validity import BALANCE
 from nivel.errors import Fault, ModelError
 from nivel.kernels.record.record import NONE
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.control.order import parts_of
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.analyses.sampled_model import Loop, SampledModel, loop_of
@@ -30,8 +30,7 @@ from nivel.system.system import Array
 MOST: Final = 5000  # instants in a common period
 
 
-@dataclass(frozen=True)
-class Sample:
+class Sample(Struct):
     """A sampled value: its state, its time after the start of a period and the period [s] exactly; at_once : others of the instant read
     its new value."""
 

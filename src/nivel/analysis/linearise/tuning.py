@@ -15,7 +15,7 @@ import numpy as np
 
 from nivel.elements.control.controllers import Pid
 from nivel.errors import Fault, ModelError
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.analyses.sampled_model import Array, Complex, Loop, SampledModel
 
@@ -24,8 +24,7 @@ STEP: Final = 5.0  # ° by which the phase margin is raised where the gain margi
 MOST: Final = 85.0
 
 
-@dataclass(frozen=True)
-class Tuning:
+class Tuning(Struct):
     """Gains of the block of this `name` in place of the `old` ones (kp, ki, kd), with the phase margin [°] at `frequency` [Hz]."""
 
     name: str

@@ -20,7 +20,7 @@ from nivel.elements.control.dynamics import LinearSystem
 from nivel.kernels.core.status import OK
 from nivel.kernels.elements import friction as columns
 from nivel.kernels.record.record import NONE
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.results.trust import number
 from nivel.system.system import Array
 
@@ -40,8 +40,7 @@ SMOOTH = 1e-10
 CANCELLED = 1e-12
 
 
-@dataclass(frozen=True)
-class Kink:
+class Kink(Struct):
     """What has two slopes when `along` changes, and both, on the lower side and on the upper one [`units`]; where the forces themselves
     differ from side to side, `jumps`."""
 
@@ -58,8 +57,7 @@ class Kink:
         return f"{self.of} with {self.along} has the slope {self.lower:.6g} {self.units} below and {self.upper:.6g} {self.units} above"
 
 
-@dataclass(frozen=True)
-class _Change:
+class _Change(Struct):
     """A change of the state by `size` [units] of what has this name: tangent increments (n,), velocities (n,) and states (S,)."""
 
     name: str
@@ -278,8 +276,7 @@ CHANGES = 1e-6
 Found = tuple[Reduction, Array, Array, LinearSystem]
 
 
-@dataclass(frozen=True)
-class Judged:
+class Judged(Struct):
     """Linear equations, and `space` with the signs of the results: places, rates, -1 where a joint coordinate grows against its velocity.
 
     moves : whether the machine does. unsteady : why eigenvalues do not describe the motion, in sentences; none where they do. remarks : on

@@ -15,7 +15,7 @@ from nivel.analysis.progress.journal import Journal, packed, unpacked
 from nivel.analysis.sweep.outputs import Found
 from nivel.analysis.sweep.variant_runs import AnalysedVariants, VariantRuns, formulas_for
 from nivel.errors import Fault, ModelError, NivelError, SolveError, refuse
-from nivel.lazy import dataclass, nivel, scipy
+from nivel.lazy import Struct, nivel, scipy
 from nivel.machine.core.vectors import Array
 from nivel.machine.study.study_record import ANALYSES
 from nivel.model import Model
@@ -30,8 +30,7 @@ SHARE: Final = 1e-5
 SAMPLED: Final = 6  # variants in the box for which formulas are looked for
 
 
-@dataclass(frozen=True)
-class Box:
+class Box(Struct):
     """Parameters by path between bounds (d,) in SI units; start (d,) : where a search begins first."""
 
     paths: tuple[str, ...]
@@ -100,8 +99,7 @@ def _present(machine: Model, path: str, low: float, high: float) -> float:
     return value if low <= value <= high else 0.5 * (low + high)
 
 
-@dataclass(frozen=True)
-class Computation:
+class Computation(Struct):
     """What is computed of each variant. analysis : `run`, or one with its settings. threads : at once, of runs whose numbers are patched;
     None: as many as there are processors.
     time_limit [s] : of each run. exact : outputs with their slopes from one run; None: differences. journal : keeps every variant, and has
@@ -128,8 +126,7 @@ class Computation:
                     raise ModelError(Fault.at(name, f"belongs to runs; `{self.analysis}` has none"))
 
 
-@dataclass(frozen=True)
-class Evaluated:
+class Evaluated(Struct):
     """One variant: place z (d,) in the unit cube, outputs (m,), not numbers where there are none, and how it ended."""
 
     z: Array

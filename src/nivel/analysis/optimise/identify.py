@@ -17,7 +17,7 @@ from nivel.analysis.optimise.evaluations import Box, Computation, Evaluations, n
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.sweep.outputs import Found, at_times, units_of
 from nivel.errors import Fault, ModelError, refuse
-from nivel.lazy import dataclass, replace, scipy
+from nivel.lazy import Struct, replace, scipy
 from nivel.machine.core.vectors import Array
 from nivel.machine.study.any_quantity import another_measure
 from nivel.model import Model
@@ -32,8 +32,7 @@ INSIDE: Final = 1e-6
 NEAR: Final = 1e-4
 
 
-@dataclass(frozen=True)
-class Signal:
+class Signal(Struct):
     """Measurements of a result: times (n,) [s], values (n,) in SI units, their standard deviation where it is known, and the unit in which
     they were given, where there is one."""
 
@@ -44,8 +43,7 @@ class Signal:
     units: str = ""
 
 
-@dataclass(frozen=True)
-class Identified:
+class Identified(Struct):
     """What was found. values, deviations : by path, the latter standard deviations; covariance (p, p) and correlation in their order.
 
     deviation_of : standard deviation of the residuals of each signal; reached : (starts,) the sum of squares that each came to;
@@ -220,8 +218,7 @@ class _Fit:
         return there, on, bound
 
 
-@dataclass(frozen=True)
-class _Spread:
+class _Spread(Struct):
     """How certain parameters are: (p, p) covariance and correlation, (p,) standard deviations; paths of those that are undetermined, and of
     those on bounds, which have none."""
 

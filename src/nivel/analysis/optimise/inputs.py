@@ -12,7 +12,7 @@ from nivel.errors import Fault, ModelError, refuse
 from nivel.files.csv_tables import CsvError, numeric_columns
 from nivel.files.measured_file import KINDS
 from nivel.files.sources import read_bytes, read_text
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.laws.varying_value import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.study.any_quantity import another_measure
@@ -20,8 +20,7 @@ from nivel.machine.study.parameter import SCALAR
 from nivel.words.wording import shown, unknown_word
 
 
-@dataclass(frozen=True)
-class Course:
+class Course(Struct):
     """Inputs as tables, the paths of whose values are the parameters. names : of the inputs; times : (n,) [s] of the corners."""
 
     record: MachineRecord

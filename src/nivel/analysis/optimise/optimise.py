@@ -16,7 +16,7 @@ from nivel.analysis.progress.log import Listener
 from nivel.analysis.sweep.outputs import Found, OutputFailedError, Said, event_of, said_number
 from nivel.errors import Fault, ModelError, refuse
 from nivel.extras import needed, require
-from nivel.lazy import dataclass, scipy
+from nivel.lazy import Struct, scipy
 from nivel.machine.core.vectors import Array
 from nivel.machine.study.study_record import SEARCH_METHODS
 from nivel.model import Model
@@ -209,8 +209,7 @@ class Search:
 Limits = Mapping[str, Sequence[float | None]]
 
 
-@dataclass(frozen=True)
-class Optimum:
+class Optimum(Struct):
     """What was found. values : by path; objective : there; outputs : by name; kept : whether all constraints hold there.
 
     reached : (starts,) the objective that each start came to; dataset : every variant that was computed; machine : the best one;
@@ -228,8 +227,7 @@ class Optimum:
     evaluations: int
 
 
-@dataclass(frozen=True)
-class Aim:
+class Aim(Struct):
     """objective : an output, in words or a function of the result; maximise : whether it is to be large. outputs : others by name; limits :
     (least, greatest) of outputs by name."""
 

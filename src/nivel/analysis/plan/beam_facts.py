@@ -10,7 +10,7 @@ from nivel.elements.joints.joint import Joint
 from nivel.integrate.catalogue import INTEGRATORS, step_for
 from nivel.integrate.facts import IntegratorFacts
 from nivel.known import Beam, BeamSection, Component, Contact, Hand, JointSpringDamper, PointForce, Torque
-from nivel.lazy import dataclass, nivel, scipy
+from nivel.lazy import Struct, nivel, scipy
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.bodies.shape import Box, Cylinder, Sphere
@@ -26,8 +26,7 @@ from nivel.system.beam_nodes import with_nodes
 FIRST_BENDING = 4.730040744862704  # first root above zero of cos x cosh x = 1: a beam with free ends
 
 
-@dataclass(frozen=True)
-class BeamFacts:
+class BeamFacts(Struct):
     """One beam, as it is given: mass [kg], length [m] along its line, its model, number and order of its elements, names of its stations.
 
     first_bending : about the lowest frequency [Hz] of the beam straight and free. fastest : highest frequency [Hz] of an element

@@ -14,7 +14,7 @@ from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.stabilise import STABILISATIONS, Stabilisation
 from nivel.judge.before import refusals
-from nivel.lazy import dataclass, nivel, replace
+from nivel.lazy import Struct, nivel, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import chooses
@@ -64,8 +64,7 @@ def _choice(what: str, fitting: list[str]) -> str:
     return f"{what} is for {', '.join(fitting)}" if fitting else f"nothing uses {what}"
 
 
-@dataclass(frozen=True)
-class Methods:
+class Methods(Struct):
     """How the equations of motion of a machine are written.
 
     machine : with the nodes of its beams as bodies. cut : its settings with the joints that are cut in relative coordinates. path : where
@@ -98,8 +97,7 @@ class Methods:
         return chooses(self.machine.simulation.integrator, self.machine.simulation.step_control)
 
 
-@dataclass(frozen=True)
-class Plan:
+class Plan(Struct):
     """One run: the machine as it was written, its settings completed, and its methods.
 
     is_open : the machine names no integrator. reason : why it has its integrator where nobody asked for it. asked : the machine as it was

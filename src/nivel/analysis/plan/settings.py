@@ -8,7 +8,7 @@ from nivel.errors import Fault, ModelError, refuse
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.newmark.alpha_constants import CHOSEN_STEPS, FIXED_STEPS, generalised_alpha, hht, newmark
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.settings.run import Corrector, Penalty, SimulationSettings
 from nivel.machine.units.quantity import asked, shown
 from nivel.methods import chooses
@@ -26,8 +26,7 @@ LEAST_TOLERANCE = 1e-12
 LEAST_CHANGE = 1e-15
 
 
-@dataclass(frozen=True)
-class RunSettings:
+class RunSettings(Struct):
     """Everything that decides a run. Times in s; coordinates as chosen. What is not completed stands in `asked`, as it was asked for.
 
     steps : in all, `every` of them between frames; both 0 where the integrator chooses its steps. tolerance, corrector, penalty : None

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.preparation.memory import Array, MachineMemory, UnlikeError
 from nivel.errors import ModelError
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 
 NODES: Final = 4  # most points of a function
 # y = ± z^power, and whether z are fractions: last, as what is the inverse of a sum follows each parameter alone as a fraction, too
@@ -39,8 +39,7 @@ class UnfitError(Exception):
     """Parameters of which numbers follow no laws. args : an `Unfit` each."""
 
 
-@dataclass(frozen=True)
-class Numbers:
+class Numbers(Struct):
     """n numbers that follow from m parameters, y = sign z^power with z = constant + Σ_k P_k(t_k)/Q_k(t_k), t = (x - centre)/width.
 
     places : (n,) among those of the memory. constants, powers, signs : (n,). factors, divisors : (n, m, NODES) of the powers of t in P and

@@ -28,7 +28,7 @@ from nivel.judge.before.refusals import deep_starts, moved_nodes, struck_nodes, 
 from nivel.kernels.core.arrays import copied
 from nivel.kernels.record.record import Record
 from nivel.known import Beam
-from nivel.lazy import dataclass, nivel, replace
+from nivel.lazy import Struct, dataclass, nivel, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
 from nivel.motion.shared_loads import share_loads
@@ -65,8 +65,7 @@ class Rest(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class Prepared:
+class Prepared(Struct):
     """A machine ready to run: where its equations are, these and its state at the start in the coordinates of the run, both again in
     absolute ones as assembled, its redundancy, the number of its drivers, the integrator of its settings, its beams, and the corners [s]
     of its functions of time at which the steps of the loop have to end; where steps are chosen, how long they may be in which part [s];
@@ -346,8 +345,7 @@ class SharedLoads:
             share_loads(address, float(frame[0]), y, frame)
 
 
-@dataclass(frozen=True)
-class SharingSink:
+class SharingSink(Struct):
     """Other sinks behind shared loads."""
 
     loads: SharedLoads

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from typing import Any, Final, TextIO
 
-from nivel.lazy import dataclass, rich
+from nivel.lazy import Struct, rich
 
 STEPS: Final = 10  # of a stage: after each it is worth a line again
 SOONEST: Final = 1.0  # s between two lines about one stage
@@ -18,8 +18,7 @@ Progress = Callable[[float], None]
 Stage = Callable[[str, float | None], None]
 
 
-@dataclass(frozen=True)
-class Listener:
+class Listener(Struct):
     """`stage` hears what begins and how long it is (None: unknown), `progress` how far it is; for a run both are times [s]."""
 
     stage: Stage | None = None

@@ -27,7 +27,7 @@ from nivel.judge.after.other_elements import Compared, Pair
 from nivel.judge.after.subject import Run, run_of
 from nivel.judge.before.refusals import sampled_times
 from nivel.known import SoilUnit
-from nivel.lazy import dataclass, nivel, replace
+from nivel.lazy import Struct, nivel, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.estimate import TIMES, estimate_errors
 from nivel.results.memory import Memory
@@ -58,8 +58,7 @@ MOST_TIMES, LEAST_WORK, FEW_STATES = 3.0, 2e7, 10
 LOOK = 0.02
 
 
-@dataclass(frozen=True)
-class Refinement:
+class Refinement(Struct):
     """What a second run does otherwise.
 
     settings : its own, with frames at times of those of the first run. words : what it is. left : its error as a share of that of the
@@ -71,8 +70,7 @@ class Refinement:
     left: float
 
 
-@dataclass(frozen=True)
-class Verified:
+class Verified(Struct):
     """A second run as far as it came. until : its last frame [s]. ended : why it came to no end; empty where it did. finished, prepared,
     frames : how it ended, its machine, and what a sink has taken of it (n, width)."""
 
@@ -324,8 +322,7 @@ class SecondRun:
         return ""
 
 
-@dataclass(frozen=True)
-class Options:
+class Options(Struct):
     """source : text of the machine's file. verify, limit [s] : of the second run. listener : hears what is done. most : work
     (`nivel.analysis.progress.pacing`) beyond which the run ends as if it was interrupted."""
 
@@ -336,8 +333,7 @@ class Options:
     most: float = inf
 
 
-@dataclass(frozen=True)
-class Found:
+class Found(Struct):
     """A run with other elements as far as it came; None where it has no frame. why : it did not come to its end."""
 
     pair: Pair
@@ -363,8 +359,7 @@ def _drawn(machine: MachineRecord, result: Result) -> dict[str, Array] | None:
     return {body.name: np.array(body.position) for body in with_nodes(machine).bodies if body.name in names}
 
 
-@dataclass(frozen=True)
-class ElementsRun:
+class ElementsRun(Struct):
     """The run of a `pair` in its thread."""
 
     pair: Pair
@@ -388,8 +383,7 @@ class ElementsRun:
         return Found(self.pair, found, why)
 
 
-@dataclass(frozen=True)
-class Attempt:
+class Attempt(Struct):
     """A run as far as it came. result, frames : as the sinks have them; frames are none where a file has them."""
 
     plan: Plan

@@ -26,7 +26,7 @@ from nivel.elements.forces.shafts import BeltDrive, Shaft
 from nivel.errors import ModelError, SolveError
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.judge.during.growth import Fastest, fastest
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, resolve
@@ -50,8 +50,7 @@ STANDARD_GRAVITY = 9.81
 NONE_GOES = "no implicit method goes with its other settings"
 
 
-@dataclass(frozen=True)
-class Rate:
+class Rate(Struct):
     """The fastest rate [1/s] of something, the step [s] with which an explicit method follows it, and what it is of, in words."""
 
     rate: float

@@ -23,7 +23,7 @@ from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.loop.run import DONE_STEPS, EVENTS, FRAMES, HORIZON, INTERVAL, TIME, Run
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.output.observe import observe
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.contents import MemoryContents
@@ -236,8 +236,7 @@ def narrow_functions(machine: MachineRecord) -> tuple[Varying, ...]:
     )
 
 
-@dataclass(frozen=True)
-class Feature:
+class Feature(Struct):
     """What a function does first beyond its values at the ends of a step: begin and end [s], for which time it is there by half of that,
     `width` [s], and the impulse of the function over the step."""
 

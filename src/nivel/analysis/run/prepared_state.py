@@ -28,7 +28,7 @@ from nivel.analysis.run.dynamics import march
 from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.integrate.loop.run import ALL_STEPS, BUDGET, END, EVERY, FRAMES, LAST_FRAME, OPEN_LIMIT, TOLERANCE, Run
 from nivel.integrate.loop.sink import Header
-from nivel.lazy import dataclass, nivel
+from nivel.lazy import Struct, nivel
 from nivel.native.entry import Entry
 from nivel.native.signature import BROKEN, IN_C, RESULT_IN_C
 from nivel.results.memory import Memory
@@ -39,8 +39,7 @@ from nivel.system.system import Array, System
 OPTIONS = ResidualOptions(along=True)
 
 
-@dataclass(frozen=True)
-class Moment:
+class Moment(Struct):
     """The equations of a machine with their residual, a time t [s] and the state y; prepared : as it starts."""
 
     prepared: Prepared
@@ -49,8 +48,7 @@ class Moment:
     y: Array
 
 
-@dataclass(frozen=True)
-class Posture:
+class Posture(Struct):
     """A state in absolute coordinates: q, Ṙ, ω̄ of all bodies, states of elements by name, modes and their rates, angles of joints."""
 
     t: float
@@ -271,8 +269,7 @@ SOLUTIONS: Final = 2
 MISSED: Final = 1e-9
 
 
-@dataclass(frozen=True)
-class Placed:
+class Placed(Struct):
     """A state in the coordinates of a run, the measured coordinates there, and the places (B, 3) [m] of the bodies."""
 
     y: Array

@@ -31,7 +31,7 @@ from nivel.judge.after.checks.states import look_at_states
 from nivel.judge.after.report import assess, lines_apart
 from nivel.judge.after.subject import Run, run_of
 from nivel.judge.during.stop import Status
-from nivel.lazy import dataclass, nivel, replace
+from nivel.lazy import Struct, nivel, replace
 from nivel.results.curve import PROBED
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
 from nivel.results.frames.summary import ATTRIBUTE as ITERATIONS
@@ -65,8 +65,7 @@ MOST_PARTS, MARGIN = 16, 1.5
 GROWTH = 0.75
 
 
-@dataclass(frozen=True)
-class Try:
+class Try(Struct):
     """A choice that was tried, in words, and what it gave: its verdict by line of the report, or why it came to no end."""
 
     words: str

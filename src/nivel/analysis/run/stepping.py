@@ -32,7 +32,7 @@ from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, DONE, OK
 from nivel.kernels.output.observe import observe
 from nivel.kernels.record.function import CONSTANT
 from nivel.kernels.signals.watch import watch
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.frames.contents import MemoryContents
 from nivel.results.frames.csv_table import columns
@@ -57,8 +57,7 @@ UNSHARED: Final = frozenset(
 PLACED: Final = 1e-9  # share of the machine's size by which bodies may miss their places
 
 
-@dataclass(frozen=True)
-class Snapshot:
+class Snapshot(Struct):
     """The whole state of a simulation at one moment: what goes on from it repeats the motion to the last bit.
 
     time : [s]. machine : digest of the machine and its settings. arrays : everything that the simulation remembers. units :

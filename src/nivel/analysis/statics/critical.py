@@ -19,7 +19,7 @@ from nivel.analysis.statics.linear import NO_STIFFNESS, PivotError, is_small, lo
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate
 from nivel.analysis.statics.path import Point, Steps, by_arc_length
 from nivel.kernels.record.record import NONE
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.system.system import Array
 
 # The loads do no work along a direction if they do less than this share of what they could.
@@ -32,8 +32,7 @@ EXACT = 1e-10
 NEARLY, PARTS = 1e-8, (0.5, 0.4, 0.6, 0.25, 0.75)
 
 
-@dataclass(frozen=True)
-class CriticalPoint:
+class CriticalPoint(Struct):
     """kind : limit point or bifurcation. t : its time [s], along : its place on the path [s]; direction (f,) that has no stiffness there.
 
     found : the equilibrium there; None where it could only be told that it is between two equilibria, of the times `between` [s], whose
@@ -169,8 +168,7 @@ def _kind(tangent: Tangent, direction: Array) -> str:
 LOOKED, SHORT = 40, 0.05
 
 
-@dataclass(frozen=True)
-class Softest:
+class Softest(Struct):
     """The stiffness next to zero as a share of the largest, and its direction (f,)."""
 
     share: float

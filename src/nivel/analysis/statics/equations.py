@@ -24,7 +24,7 @@ from nivel.elements.circuits.volumes import VOLUME
 from nivel.kernels.core.status import OK
 from nivel.kernels.output import static_entries
 from nivel.kernels.residual import tangent_entries
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.system.layout import reported
 from nivel.system.system import Array
 
@@ -72,8 +72,7 @@ class StateError(Exception):
     """Something in a state is not a number, or its equations cannot be evaluated there."""
 
 
-@dataclass(frozen=True)
-class Rest:
+class Rest(Struct):
     """A machine at rest, in equilibrium or not: state y with zero velocities, multipliers λ (K,), time t [s] of all functions of time."""
 
     y: Array
@@ -81,8 +80,7 @@ class Rest:
     t: float
 
 
-@dataclass(frozen=True)
-class Change:
+class Change(Struct):
     """A change of a state without units: of the free unknowns (f,), of the multipliers (K,), and of time over the scale of time."""
 
     q: Array
@@ -96,8 +94,7 @@ class Change:
         return Change(self.q + other.q, self.lam + other.lam, self.t + other.t)
 
 
-@dataclass(frozen=True)
-class Tangent:
+class Tangent(Struct):
     """Matrices at a state, without units: K (f, f) stiffness, C (K, f) constraints; M, D (f, f) of their own units, made when asked for.
 
     slope, opening : derivatives of r (f,) and C (K,) with respect to time over its scale.

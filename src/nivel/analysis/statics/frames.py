@@ -9,7 +9,7 @@ from nivel.analysis.statics.equations import Rest, StaticEquations
 from nivel.analysis.statics.linear import Vibrations
 from nivel.kernels.output.observe import observe
 from nivel.kernels.residual.tangent_entries import evaluate_residual
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.motion.catalogue import IMPLICIT_ACCELERATIONS
 from nivel.system.layout import Entry, FrameLayout, Variable, laid_out
 from nivel.system.system import Array
@@ -57,8 +57,7 @@ BENDING = (
 )
 
 
-@dataclass(frozen=True)
-class Facts:
+class Facts(Struct):
     """What a frame says beside the state. vibrations : None where none were asked for."""
 
     path: float

@@ -9,7 +9,7 @@ from scipy.sparse import bmat, csc_matrix, diags
 from scipy.sparse.linalg import ArpackNoConvergence, splu
 
 from nivel.analysis.statics.equations import Change, Sparse, Tangent
-from nivel.lazy import dataclass, replace, scipy
+from nivel.lazy import Struct, replace, scipy
 from nivel.system.system import Array
 
 # Up to so many unknowns the null space of the constraints is made as a full matrix.
@@ -320,8 +320,7 @@ NONE = 1e-24
 DAMPED = 400
 
 
-@dataclass(frozen=True)
-class Vibrations:
+class Vibrations(Struct):
     """squares : ω² (k,) [1/s²] ascending, negative where the equilibrium is unstable, zero of rigid motions; shapes (f, k) with unit modal
     mass, without units.
 

@@ -13,7 +13,7 @@ import numpy as np
 from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEquations, Tangent
 from nivel.analysis.statics.linear import PivotError, bordered, saddle_factors, solve_bordered
 from nivel.analysis.statics.rigid_motions import with_tie
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.system.system import Array
 
 # The least share of a step that is tried.
@@ -28,8 +28,7 @@ PATIENCE, LONG = 10, 0.05
 STALLED, ROUND_OFF = 0.3, 1e-7
 
 
-@dataclass(frozen=True)
-class Iteration:
+class Iteration(Struct):
     """How Newton's iteration goes: tolerance of the last change, in lengths of the machine and radians; most iterations; line search.
 
     balanced : unbalanced forces of this share of the loads end it as well: next to a critical point changes are no measure.
@@ -41,8 +40,7 @@ class Iteration:
     balanced: float = 0.0
 
 
-@dataclass(frozen=True)
-class Found:
+class Found(Struct):
     """A state of equilibrium, its tangent, the iterations that it took, the whole change of its positions, and all changes in turn."""
 
     state: Rest

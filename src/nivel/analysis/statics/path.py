@@ -13,7 +13,7 @@ from nivel.analysis.statics.equations import Change, Rest, StaticEquations, Tang
 from nivel.analysis.statics.linear import PivotError, bordered, solve, solve_bordered
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate, step_to
 from nivel.analysis.statics.states import equilibrate_states
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 
 # Steps are halved so often, at most.
 HALVINGS = 12
@@ -30,8 +30,7 @@ MOST_STEPS = 20_000
 NEAR = 1e-12
 
 
-@dataclass(frozen=True)
-class Point:
+class Point(Struct):
     """An equilibrium of the path, and how far along the path it is [s]."""
 
     found: Found
@@ -42,8 +41,7 @@ class Point:
         return self.found.state
 
 
-@dataclass(frozen=True)
-class Steps:
+class Steps(Struct):
     """How a path is followed: to the time `duration` [s], in steps [s], at most `most` of them, with this iteration."""
 
     duration: float

@@ -10,7 +10,7 @@ from scipy.sparse import coo_matrix, csc_matrix
 
 from nivel.analysis.statics.equations import Rest, Sparse, StaticEquations, Tangent
 from nivel.analysis.statics.linear import NO_STIFFNESS, PivotError, lowest, symmetric
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.core.vectors import cross
 from nivel.system.system import Array
 
@@ -25,8 +25,7 @@ BALANCED = 1e-9
 RIGID = 1e-12
 
 
-@dataclass(frozen=True)
-class Whole:
+class Whole(Struct):
     """How many rigid motions of the whole machine nothing resists; inner (f,) : a motion without stiffness beside them, of parts against
     each other, or None. tied : something ties the machine to the ground."""
 

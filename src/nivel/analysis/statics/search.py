@@ -19,7 +19,7 @@ from nivel.analysis.statics.linear import PivotError, negative_directions, saddl
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate, step_to
 from nivel.analysis.statics.path import Point, Steps
 from nivel.analysis.statics.rigid_motions import is_tied, of_whole, resultant, with_tie
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.system.system import Array
 
 MOST_STEPS = 600
@@ -212,8 +212,7 @@ def _descend(equations: StaticEquations, state: Rest) -> Rest:
     raise EquilibriumError(f"the machine has not settled after {MOST_STEPS} steps", state)
 
 
-@dataclass(frozen=True)
-class _Tried:
+class _Tried(Struct):
     """The state after a step of this size, and the step that is asked for by what is not linear in it, over the step itself."""
 
     state: Rest

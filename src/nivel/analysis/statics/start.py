@@ -15,7 +15,7 @@ from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import no_start, settle, without_stiffness
 from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.errors import Fault, ModelError, SolveError, refuse
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.analyses import StaticsSettings
 from nivel.system.system import Array
@@ -24,8 +24,7 @@ from nivel.system.system import Array
 AT_REST = 1e-9
 
 
-@dataclass(frozen=True)
-class Settled:
+class Settled(Struct):
     """The positions q of all bodies (and modes) in equilibrium at t = 0, absolute coordinates, the angles of joints there, and the states
     of elements. machine : whose equilibrium it is."""
 

@@ -19,7 +19,7 @@ from scipy.sparse import csc_matrix, diags
 from nivel.analysis.statics.equations import Rest, Sparse, StateError, StaticEquations
 from nivel.analysis.statics.linear import PivotError, factors
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.system.system import Array
 
 # The longest change of one iteration, in lengths of the machine and radians; most iterations, of which the last ones are Newton's own.
@@ -34,8 +34,7 @@ GROWING = 1e-7
 STILL = 1e-12
 
 
-@dataclass(frozen=True)
-class _System:
+class _System(Struct):
     """The equations at a state: matrix and right-hand side of scaled unknowns, and what a scaled unknown is in units."""
 
     matrix: csc_matrix
@@ -44,8 +43,7 @@ class _System:
     states: NDArray[np.intp]
 
 
-@dataclass(frozen=True)
-class Since:
+class Since(Struct):
     """Where an equilibrium is asked from: the states (S,) there, and how far the free unknowns (f,) have moved since, without units."""
 
     states: Array

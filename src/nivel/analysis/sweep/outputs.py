@@ -9,7 +9,7 @@ import numpy as np
 
 from nivel.analysis.plan.settings import with_usual_frames
 from nivel.errors import Fault, ModelError, retold
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 from nivel.machine.core.vectors import Array
 from nivel.machine.study.any_quantity import another_measure
 from nivel.machine.study.parameter import (
@@ -284,8 +284,7 @@ def _called(output: PythonOutput, found: Found) -> float:
         raise OutputFailedError(f"{type(error).__name__}: {error}") from error
 
 
-@dataclass(frozen=True)
-class Task:
+class Task(Struct):
     """What is done with a machine. analysis : run, statics, kinematics, linearise, inverse. settings : of the analysis; of a run none, as
     the machine has them.
 

@@ -25,7 +25,7 @@ from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import BUDGET, FRAMES, STOPPED, Run
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import BUDGET_SPENT, DONE
-from nivel.lazy import dataclass, fields, is_dataclass, replace
+from nivel.lazy import Struct, fields, is_dataclass, replace
 from nivel.machine.units.quantity import ANY, read_quantity
 from nivel.machine.units.tree import ExpressionError
 from nivel.model import Model
@@ -71,8 +71,7 @@ def watch(limit: float | None) -> Callable[[float], None]:
     return look
 
 
-@dataclass(frozen=True)
-class Blank:
+class Blank(Struct):
     """A machine ready to run from its start again and again: memory of its records and of its run, each in one piece.
 
     judged : its runs have trust reports, which also look at the equations in absolute coordinates, as loads do that joints share.
@@ -125,8 +124,7 @@ class Patch(NamedTuple):
     numbers: Numbers
 
 
-@dataclass(frozen=True)
-class Patches:
+class Patches(Struct):
     """How the memory of a machine follows from its parameters.
 
     paths : of the parameters; varied : those of them that are not the same in all variants. start : both pieces at the start of the nominal

@@ -15,7 +15,7 @@ from nivel.files.reader import OUTSIDE
 from nivel.files.sources import beside
 from nivel.files.study_file import StudyFile
 from nivel.integrate.loop.sink import Header
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.settings.analyses import SETTINGS
 from nivel.machine.settings.values import settings_of
 from nivel.machine.study.any_quantity import dimension_of, si
@@ -83,8 +83,7 @@ def _empty(machine: Model) -> Result:
 OF_FILES = ("motion", "trajectory")  # settings that name files, seen from the folder of the study
 
 
-@dataclass(frozen=True)
-class Resolved:
+class Resolved(Struct):
     """A study with its machine.
 
     machine : with the values of `set`, and of a run with its settings. parameters : by path, nominal values put in. settings : of the

@@ -35,7 +35,7 @@ from nivel.analysis.sweep.variants import ROW, Variants
 from nivel.errors import ModelError
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Sweep, Variant
-from nivel.lazy import dataclass, nivel, rich
+from nivel.lazy import Struct, nivel, rich
 from nivel.model import Model
 from nivel.native.processor import lane_count
 from nivel.results.result import Result
@@ -50,8 +50,7 @@ FACTS_OF_BATCH: Final = {
 }
 
 
-@dataclass(frozen=True)
-class Engine:
+class Engine(Struct):
     """Where variants are computed. processes : of this machine. scheduler : address of that of a Dask cluster, instead. apart : none is
     computed in this process, which a variant may end."""
 

@@ -17,7 +17,7 @@ from nivel.analysis.sweep.outputs import Found, Number, OutputFailedError, Task,
 from nivel.analysis.sweep.variant_runs import JudgedRuns, Ran, VariantRuns, analysed, formulas_for, tried
 from nivel.analysis.sweep.variants import Variants
 from nivel.errors import ModelError, retold
-from nivel.lazy import dataclass, field, replace
+from nivel.lazy import Struct, field, replace
 from nivel.machine.study.parameter import Output, Reduced
 from nivel.native.processor import lane_count
 from nivel.results.analyses.linear_model import LinearModel
@@ -29,8 +29,7 @@ KILLED: Final = "killed"
 ENDLESS: Final = 1e9  # s that second runs may go on: how far they come may not depend on how busy a processor is
 
 
-@dataclass(frozen=True)
-class Saved:
+class Saved(Struct):
     """Numbers of one variable: dimensions behind time with their names, units, meaning, values (frames, …)."""
 
     dims: tuple[str, ...]
@@ -40,8 +39,7 @@ class Saved:
     values: NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class VariantRun:
+class VariantRun(Struct):
     """What is kept of a variant. outcome : done; stopped, by an event; failed, with the `reason`; refused, before anything was computed;
     timed out; killed, with the process that computed it.
 

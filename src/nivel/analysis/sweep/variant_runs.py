@@ -15,7 +15,7 @@ from nivel.analysis.sweep.patched import PatchedRuns, Patches, TooLongError, Uns
 from nivel.errors import ModelError, NivelError, SolveError, refuse
 from nivel.judge.after.subject import run_of
 from nivel.judge.before.refusals import deep_starts
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.model import Model
 from nivel.results.memory import Memory
 from nivel.results.result import Result
@@ -25,8 +25,7 @@ Values = Mapping[str, Any]
 TIMED_OUT: Final = "timed out"
 
 
-@dataclass(frozen=True)
-class Ran:
+class Ran(Struct):
     """A variant, computed. outcome, reason : as of a `VariantRun`. loop_seconds : in the compiled loop.
 
     result : what was computed, of the kind that the analysis has, valid until the next of the same `VariantRuns`; None where nothing was.

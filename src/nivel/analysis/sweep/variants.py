@@ -11,7 +11,7 @@ from scipy.special import ndtr, ndtri
 
 from nivel.errors import Fault, ModelError, gathered, refuse
 from nivel.extras import needed
-from nivel.lazy import dataclass, scipy
+from nivel.lazy import Struct, scipy
 from nivel.machine.core.vectors import Array
 from nivel.machine.settings.values import settings_of
 from nivel.machine.study.any_quantity import si, si_or_text
@@ -86,8 +86,7 @@ MOST: Final = 1_000_000
 Parameters = Mapping[str, Distribution]
 
 
-@dataclass(frozen=True)
-class Variants:
+class Variants(Struct):
     """values : of every variant, by path. shape : numbers of variants along the `dimensions`, in C order.
 
     coordinates : by name, the dimension along which they stand and the values there, in SI units where they are numbers.

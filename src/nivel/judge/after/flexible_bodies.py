@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable
@@ -13,8 +13,7 @@ from nivel.system.flexible import Bending, bending_bodies
 MODAL = ("modal_coordinate", "modal_rate", "modal_acceleration")  # of a result
 
 
-@dataclass(frozen=True)
-class ModalBody:
+class ModalBody(Struct):
     """A body that bends: its modal coordinates are the columns first to last - 1 of a run. eigenvalues (n,) [1/s²]; position (N, 3) [m] and
     modes (N, 3, n) of its nodes; stiffened : whether it has geometric stiffness."""
 
@@ -42,8 +41,7 @@ class ModalBody:
         return np.linalg.svd(self.position - self.position.mean(axis=0), full_matrices=False)[2][0]
 
 
-@dataclass(frozen=True)
-class Bent:
+class Bent(Struct):
     """What was found of a body, its largest value, and when [s]."""
 
     body: str
@@ -68,8 +66,7 @@ def numbered_bodies(machine: MachineRecord) -> Iterator[tuple[tuple[int, Bending
         first = last
 
 
-@dataclass(frozen=True)
-class PointRanges:
+class PointRanges(Struct):
     """Ranges, over a run, of the motion of the points of a flexible body: displacement by bending [m], speed [m/s], acceleration [m/s²].
     modal (n,) [kg^0.5 m] : of each modal coordinate, what displaces a node by this displacement, or strains the body as much as it is
     strained, whichever is less."""

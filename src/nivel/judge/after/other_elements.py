@@ -12,7 +12,7 @@ import numpy as np
 
 from nivel.elements.joints import JOINTS
 from nivel.known import Beam, Result
-from nivel.lazy import dataclass, nivel, scipy
+from nivel.lazy import Struct, nivel, scipy
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.estimate import Estimate
@@ -24,8 +24,7 @@ IN_A_STEP: Final = 30  # places between two states of a path at which the neares
 MARGIN: Final = 1.25  # by which estimates are larger than what follows from the distance
 
 
-@dataclass(frozen=True)
-class Pair:
+class Pair(Struct):
     """The machine with other elements, `words` says which. factor : by which the distance of the two is multiplied to be the error. order :
     of the elements with the lowest."""
 
@@ -75,8 +74,7 @@ def _power(beam: Beam) -> int:
     return 2 if beam.model != "geometrically-exact" or beam.order == 1 else 3
 
 
-@dataclass(frozen=True)
-class ElementErrors:
+class ElementErrors(Struct):
     """time (n,) [s]; values : of each variable (n, …) its estimated error then, zero where the other machine has no such number."""
 
     time: Array
@@ -190,16 +188,14 @@ def _nearest(curve: Array, point: Array) -> Array:
     return found[int(np.argmin(np.linalg.norm(found - point, axis=1)))]
 
 
-@dataclass(frozen=True)
-class Stiffness:
+class Stiffness(Struct):
     """The lowest squares of vibrations [1/s²], as drawn and in the last state."""
 
     drawn: float
     last: float
 
 
-@dataclass(frozen=True, kw_only=True)
-class Compared:
+class Compared(Struct, kw_only=True):
     """A machine with other elements and its result as far as it came; None where it has no frame. why : it did not come to its end.
 
     errors : what follows for the numbers of the machine itself. Of equilibria: drawn : places (3,) [m] of bodies before they are loaded;

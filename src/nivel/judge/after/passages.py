@@ -24,7 +24,7 @@ from nivel.judge.after.subject import Run
 from nivel.kernels.core.arrays import copied
 from nivel.kernels.core.status import SINGULAR
 from nivel.kernels.solve.saddle import LEFT_OUT
-from nivel.lazy import dataclass, replace, scipy
+from nivel.lazy import Struct, replace, scipy
 from nivel.motion.catalogue import FLOATING
 from nivel.results.scales import Readable
 from nivel.system.system import Array, System
@@ -33,8 +33,7 @@ from nivel.system.system import Array, System
 PART = 0.3
 
 
-@dataclass(frozen=True)
-class RowPivots:
+class RowPivots(Struct):
     """The equations of a machine, with a record of their own, and its state as assembled. chosen : rows are chosen by pivots."""
 
     motion: MotionEquations
@@ -147,8 +146,7 @@ NEAR_ZERO, CLOSER = 0.2, 12
 GOLDEN = 0.381966
 
 
-@dataclass(frozen=True)
-class Passage:
+class Passage(Struct):
     """A position passed at `time` [s] in which rows of `joints` depend on each other; left : of their independence, as a share."""
 
     time: float
@@ -156,8 +154,7 @@ class Passage:
     left: float
 
 
-@dataclass(frozen=True)
-class Track:
+class Track(Struct):
     """The positions of a run. q : (n, ·) positions of bodies in absolute coordinates, modal coordinates behind them. states : (n, ·)."""
 
     time: Array

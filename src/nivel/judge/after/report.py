@@ -10,14 +10,13 @@ import numpy as np
 
 from nivel.judge.after import checks
 from nivel.judge.after.subject import Equilibria, Motion, Positions, Run, Subject
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.results.result import Result
 from nivel.results.scales import Readable
 from nivel.results.trust import Item, Threshold, Trust, plain, worst
 
 
-@dataclass(frozen=True)
-class Need:
+class Need(Struct):
     """What a check cannot do without, in words, and whether a subject has it."""
 
     words: str
@@ -34,8 +33,7 @@ ESTIMATE: Final = Need("a second run", lambda run: run.estimate is not None and 
 OTHERS: Final = Need("a result with other elements of beams", lambda subject: subject.elements is not None)
 
 
-@dataclass(frozen=True)
-class Check(Generic[S, F]):
+class Check(Struct, Generic[S, F]):
     """A check, made as `CHECKS` of a module of `nivel.judge.after.checks`.
 
     name : of what it finds, in `Trust.found`. of : kinds of subjects that it looks at. needs : what they must have.

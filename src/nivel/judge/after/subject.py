@@ -12,7 +12,7 @@ import numpy as np
 
 from nivel.integrate.loop.run import MOVING
 from nivel.judge.after.touching_pairs import Passing, find_passing
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 from nivel.results.curve import probed
 from nivel.results.motion import Peak, worst_row
 from nivel.results.scales import Readable, largest_speed, machine_size, speed_of_rest
@@ -38,8 +38,7 @@ if TYPE_CHECKING:
     from nivel.results.trust import Trust
 
 
-@dataclass(frozen=True)
-class Scales:
+class Scales(Struct):
     """What errors are compared with: size [m] and what it is, to be said after "the"; speed [m/s], the least one that counts where the
     machine is `at_rest`."""
 
@@ -49,8 +48,7 @@ class Scales:
     at_rest: bool = False
 
 
-@dataclass(frozen=True, kw_only=True)
-class Subject:
+class Subject(Struct, kw_only=True):
     """An analysis. outcome : done, interrupted, failed or running. failure : what stopped it, in a sentence.
 
     items : lines of the other checks, for checks that are looked at last.
@@ -67,8 +65,7 @@ class Subject:
         return known
 
 
-@dataclass(frozen=True, kw_only=True)
-class Recorded(Subject):
+class Recorded(Subject, kw_only=True):
     """An analysis whose result has frames."""
 
     result: Readable
@@ -84,8 +81,7 @@ class Recorded(Subject):
         return worst_row(self.result, "constraint_violation", {"m": 1.0 / self.scales.size, "1": 1.0})
 
 
-@dataclass(frozen=True, kw_only=True)
-class Motion(Recorded):
+class Motion(Recorded, kw_only=True):
     """A run in time, of which the result alone is known where it was killed, or still goes on.
 
     stopped_by : name of the event that ended it. kinetic_energy : the largest one that its steps had [J]; frames may all meet a vibration
@@ -102,16 +98,14 @@ class Motion(Recorded):
         return Scales(size, kind, max(speed, slowest), speed < slowest)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Computed:
+class Computed(Struct, kw_only=True):
     """What analyses know that have just been made."""
 
     machine: MachineRecord
     prepared: Prepared
 
 
-@dataclass(frozen=True, kw_only=True)
-class Run(Motion, Computed):
+class Run(Motion, Computed, kw_only=True):
     """A run that has ended. second : the second run, and `estimate` what follows from it for each number; None where there are none.
     elements : the run with other elements of beams, or None."""
 
@@ -165,8 +159,7 @@ def run_of(plan: Plan, prepared: Prepared, finished: RunOutcome, result: Result)
     )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Equilibria(Recorded, Computed):
+class Equilibria(Recorded, Computed, kw_only=True):
     """States of equilibrium. critical : (kind, t [s], None or the times [s] between which it is where it was not found) of limit and
     bifurcation points, along the path. at_rest : sentences on what makes no force at rest. rigid : vibrations of no frequency.
     free_motions : rigid ones of the whole machine, which nothing resists. without_potential : some force has none, as one that follows a
@@ -184,8 +177,7 @@ class Equilibria(Recorded, Computed):
         return Scales(*machine_size(self.result), at_rest=True)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Positions(Recorded, Computed):
+class Positions(Recorded, Computed, kw_only=True):
     """Positions of a kinematic analysis. halved : steps that were shortened on the way. near : the singular position that it came nearest
     to; None where there are no constraints. passed : pairs of times [s] between which one was passed. between_frames : of `Probes`."""
 
@@ -210,8 +202,7 @@ class Positions(Recorded, Computed):
         return self.machine.drivers
 
 
-@dataclass(frozen=True, kw_only=True)
-class Actuated(Subject):
+class Actuated(Subject, kw_only=True):
     """Efforts of actuators over the motion `result`. drivers : that the motion is to follow; replaced : those that another motion was
     given in place of."""
 
@@ -237,15 +228,13 @@ class Actuated(Subject):
         return {name: self.result.units(name) for name in names} if "joint_coordinate" in self.result.variables else {}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Led(Subject):
+class Led(Subject, kw_only=True):
     """Postures that lead a point along a path."""
 
     path: JointPath
 
 
-@dataclass(frozen=True, kw_only=True)
-class Reach(Subject):
+class Reach(Subject, kw_only=True):
     """The range of a joint coordinate. ways : trust reports of the kinematic analyses of both ways; turning : turning points of the
     coordinate on the curve of positions [rad or m], None where that could not be followed."""
 
@@ -254,16 +243,14 @@ class Reach(Subject):
     turning: tuple[float, ...] | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
-class Curve(Subject):
+class Curve(Subject, kw_only=True):
     """The curve of all positions of a machine. opening : how far its joints are open at most, as a share of their sizes."""
 
     curve: ConfigurationCurve
     opening: float
 
 
-@dataclass(frozen=True)
-class OtherVibrations:
+class OtherVibrations(Struct):
     """Eigenvalues (n,) [1/s] of the machine with other elements of its beams; none where `why` says what stopped it."""
 
     pair: Pair
@@ -271,8 +258,7 @@ class OtherVibrations:
     why: str = ""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Linearisation(Subject, Computed):
+class Linearisation(Subject, Computed, kw_only=True):
     """Linear equations about a state. eigenvalues (n,) [1/s] in ascending order of magnitude, not numbers where there are none to read;
     round_off (n,) [1/s] : to how much they are known.
 
@@ -298,8 +284,7 @@ class Linearisation(Subject, Computed):
         return Scales(self.size, "machine's size")
 
 
-@dataclass(frozen=True)
-class Variant:
+class Variant(Struct):
     """A run of a sweep. name : its values, in words. outcome, reason, verdict, verified, headline : as the dataset has them."""
 
     name: str
@@ -310,8 +295,7 @@ class Variant:
     headline: str
 
 
-@dataclass(frozen=True, kw_only=True)
-class Sweep(Subject):
+class Sweep(Subject, kw_only=True):
     """Runs, or linear models, of one machine with other values. by : what verifies them; without : that nothing did, in words."""
 
     variants: tuple[Variant, ...]
@@ -319,8 +303,7 @@ class Sweep(Subject):
     without: str = "no second runs were made"
 
 
-@dataclass(frozen=True, kw_only=True)
-class Methods(Subject):
+class Methods(Subject, kw_only=True):
     """A comparison of methods: what their motions were held against, and the runs."""
 
     references: tuple[Reference, ...]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.known import Contact, Contacts, Hull
-from nivel.lazy import dataclass, nivel, scipy
+from nivel.lazy import Struct, nivel, scipy
 from nivel.machine.bodies.shape import Capsule, Ellipsoid, Sphere
 from nivel.machine.bodies.solids import length
 from nivel.machine.bodies.touching import Touching
@@ -27,8 +27,7 @@ UNCHANGED = 0.2
 PIECES = 64
 
 
-@dataclass(frozen=True)
-class Way:
+class Way(Struct):
     """Place (n, 3) of one point from another at the frames, its rate and its second rate."""
 
     time: Array
@@ -138,8 +137,7 @@ MOST_LOOKS, LOOKS_OF_OVERLAP = 20_000, 20
 FASTER = 1.5
 
 
-@dataclass(frozen=True)
-class Pair:
+class Pair(Struct):
     """A contact of two spheres: its name, bodies, the centres of the spheres in them [m], and the distance at which these touch [m]."""
 
     contact: str
@@ -148,8 +146,7 @@ class Pair:
     reach: float
 
 
-@dataclass(frozen=True)
-class HullPair:
+class HullPair(Struct):
     """A contact of two hulls: its name, bodies, and of each hull its middle in the body frame, its corners from there and its faces
     (normal, distance) [m]."""
 
@@ -266,8 +263,7 @@ def _directions() -> Array:
     return np.column_stack([around * np.cos(turn), around * np.sin(turn), height])
 
 
-@dataclass(frozen=True)
-class Passed:
+class Passed(Struct):
     """A contact of two bodies that were never pushed apart, although they overlapped by the share `overlap` of what `of` says.
 
     time [s] : where they overlapped most; lasted [s] : how long.
@@ -281,8 +277,7 @@ class Passed:
     lasted: float
 
 
-@dataclass(frozen=True)
-class Passing:
+class Passing(Struct):
     """The deepest of each pair that passed each other, and the contacts of which not all was looked at."""
 
     passed: list[Passed]
@@ -327,8 +322,7 @@ def passed_hulls(motions: Motions, pairs: Sequence[HullPair]) -> tuple[list[Pass
     return [*deepest.values()], ()
 
 
-@dataclass(frozen=True)
-class Interval:
+class Interval(Struct):
     """Frames k and k + 1, between which two hulls may pass each other. turns : Euler parameters (n, 4) of both bodies. length [m] : of the
     way of any of their points, at most."""
 

@@ -18,7 +18,7 @@ from nivel.errors import SolveError
 from nivel.files.joint_parts import rotors_of
 from nivel.judge.before import in_words
 from nivel.kernels.core.status import OK
-from nivel.lazy import dataclass, nivel, replace
+from nivel.lazy import Struct, nivel, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.flexible import bending_bodies
 from nivel.system.states.relative import tree_of
@@ -28,8 +28,7 @@ from nivel.words.wording import set_in_motion
 ROUND_OFF = 1e-14  # [m or rad] a smaller gap is none
 
 
-@dataclass(frozen=True)
-class JointFacts:
+class JointFacts(Struct):
     """One joint: kind, first and second body, point and z axis of the first marker (global, assembled), convention in words."""
 
     name: str
@@ -44,8 +43,7 @@ class JointFacts:
     convention: str
 
 
-@dataclass(frozen=True)
-class BodyFacts:
+class BodyFacts(Struct):
     """One body: mass [kg], principal inertias about the centre of mass [kg m²] (none of a point mass), assembled frame: position [m], turn;
     the modes of a flexible one in words.
 
@@ -61,8 +59,7 @@ class BodyFacts:
     modes: str = ""
 
 
-@dataclass(frozen=True)
-class Check:
+class Check(Struct):
     """A machine that was checked and assembled; `str` of it is what `nivel check` shows."""
 
     name: str

@@ -26,7 +26,7 @@ from nivel.elements.circuits.sections import Section
 from nivel.elements.circuits.spool_valves import SpoolValve
 from nivel.elements.circuits.tanks import Reservoir, Tank, Volume
 from nivel.errors import Finding
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.quantity import PlainVolume
@@ -41,8 +41,7 @@ MOST_SIGNALS: Final = 4  # at the ends of whose ranges a command is tried
 LARGEST: Final = PUMP_DISPLACEMENT.most * 1e-6 / (2.0 * math.pi)  # [m³/rad] of pumps that are built
 
 
-@dataclass(frozen=True)
-class Circuit:
+class Circuit(Struct):
     """The components of a machine, and what meets at their nodes."""
 
     components: tuple[Component, ...]

@@ -10,7 +10,7 @@ from nivel.analysis.plan.choice import screws_as_couplings
 from nivel.errors import Fault
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.known import Contact, Contacts, Delay, Friction, Stop, TransmissionLoss
-from nivel.lazy import dataclass, nivel
+from nivel.lazy import Struct, nivel
 from nivel.machine.core.element import ForceElement
 from nivel.machine.laws.functions import functions_in
 from nivel.machine.laws.python_law import PythonLaw
@@ -35,8 +35,7 @@ FITS = 1e-8
 BLOW = 1e-3
 
 
-@dataclass(frozen=True)
-class Refusal:
+class Refusal(Struct):
     """What an analysis refuses: elements of a section of the machine file that it `applies` to, by the `key` of each, and why.
 
     text : of an element where it names something of that.

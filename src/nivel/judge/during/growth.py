@@ -20,7 +20,7 @@ from nivel.integrate.loop.run import DONE_STEPS, TAKEN, TIME, WAIT, Run
 from nivel.judge.during.stop import Status
 from nivel.kernels.core.status import OK
 from nivel.kernels.output.observe import observe
-from nivel.lazy import dataclass
+from nivel.lazy import Struct, dataclass
 from nivel.machine.units.tree import Node
 from nivel.system.layout import reported
 from nivel.system.system import Array, System
@@ -156,8 +156,7 @@ MOST_ENTRIES, SHARE, TINY = 300, 1e-6, 1e-12
 PART = 1e-2
 
 
-@dataclass(frozen=True)
-class Fastest:
+class Fastest(Struct):
     """rate [1/s] of the state at `time` [s], and the name of the force, component or block that it is of; empty where none works in it."""
 
     rate: float

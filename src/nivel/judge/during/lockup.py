@@ -17,7 +17,7 @@ from nivel.analysis.preparation.preparation import Prepared
 from nivel.errors import ModelError
 from nivel.judge.during.stop import named_row, unit_of
 from nivel.kernels.output.observe import observe
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.system.system import Array
 from nivel.words.wording import listed
 
@@ -40,8 +40,7 @@ BESIDE = 1e-3
 TAKES_PART = 0.1
 
 
-@dataclass(frozen=True)
-class Jam:
+class Jam(Struct):
     """The position beyond which joints cannot be closed.
 
     time : [s]. joints, drivers : whose rows depend on each other there; couplings are with the joints. places : where these drivers are

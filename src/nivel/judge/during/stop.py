@@ -9,7 +9,7 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.kernels.core import status as of_kernels
 from nivel.kernels.record.record import Record
 from nivel.known import Beam
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.system.layout import reported
 from nivel.system.system import Array, System
 
@@ -46,8 +46,7 @@ class Status(IntEnum):
     NO_VOLUME = of_kernels.NO_VOLUME
 
 
-@dataclass(frozen=True)
-class Stop:
+class Stop(Struct):
     """A run that failed in the step [s] from `time` [s], whose last accepted state is y.
 
     chosen_by : the integrator that chose the step, and tried ever smaller ones; empty where steps are fixed. beams : that an explicit

@@ -8,7 +8,7 @@ import numpy as np
 from nivel.elements.circuits.check_valves import BrakeValve, FlushingValve, ShuttleValve
 from nivel.elements.circuits.flow_valves import FlowDivider, PriorityValve
 from nivel.elements.circuits.pilot_valves import PilotReducingValve, PilotReliefValve
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 
 HALVINGS: Final = 60
@@ -18,8 +18,7 @@ BAR, LITRE_PER_MINUTE = 1e5, 1e-3 / 60.0
 POINTS: Final = 121
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(Struct):
     """x as its axis says, y [L/min]."""
 
     label: str
@@ -27,8 +26,7 @@ class Curve:
     y: Array
 
 
-@dataclass(frozen=True)
-class Chart:
+class Chart(Struct):
     """The curves of one valve. across : what x is, with its unit."""
 
     name: str

@@ -9,7 +9,7 @@ from html import escape
 from pathlib import Path
 from typing import Final
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 
 WIDE, BAR, GAP, TOP, HIGH = 830.0, 12.0, 9.0, 26.0, 260.0
 COLUMNS: Final = (120.0, 300.0, 430.0, 560.0)  # x of the bars: engines, pumps and other sources, the circuit, sinks
@@ -19,8 +19,7 @@ SOURCE, LOSS, WORK, STORE = "#2f6fb3", "#c0392b", "#2e8b57", "#b8860b"
 STYLE: Final = Path(__file__).with_suffix(".css").read_text(encoding="utf-8")
 
 
-@dataclass(frozen=True)
-class Stream:
+class Stream(Struct):
     """An energy [J] over a run by its name. kind : SOURCE, LOSS, WORK or STORE. engine : that turns a pump, "" without one."""
 
     name: str
@@ -29,8 +28,7 @@ class Stream:
     engine: str = ""
 
 
-@dataclass(frozen=True)
-class PowerFlow:
+class PowerFlow(Struct):
     """What goes into a circuit and what comes out of it over a run of `duration` [s]; both have the same sum."""
 
     sources: tuple[Stream, ...]
@@ -43,8 +41,7 @@ class PowerFlow:
         return sum(each.energy for each in self.sources)
 
 
-@dataclass(frozen=True)
-class _Bar:
+class _Bar(Struct):
     x: float
     y: float
     high: float

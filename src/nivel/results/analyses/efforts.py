@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.files.target import write_page, written
-from nivel.lazy import dataclass, field, provided, xarray
+from nivel.lazy import Struct, field, provided, xarray
 from nivel.machine.core.vectors import Array
 from nivel.results.curve import TOLD, curve, extreme, integral, integral_of_magnitude, peak, rms
 from nivel.results.frames.tabulated import Tabulated
@@ -24,8 +24,7 @@ NONE_MISSING = 1e-6
 SAID = ("replaced", "unique")
 
 
-@dataclass(frozen=True)
-class Efforts(Tabulated):
+class Efforts(Struct, Tabulated):
     """effort (T, m) [N, N m] on the coordinates of the actuators, positive where it drives them up; rate (T, m) of these coordinates.
 
     missing (T,) : effort on the joint coordinate `missing_at` that would do most of what no actuator gives; missing_share (T,) of the
@@ -144,8 +143,7 @@ class Efforts(Tabulated):
         return "\n".join([head, *lines, *self.statements(), f"trust: {self.trust.told}"])
 
 
-@dataclass(frozen=True)
-class JointPath(Tabulated):
+class JointPath(Struct, Tabulated):
     """values (T, n) of the tree's `coordinates` at times (T,) [s]; independent : those that were searched for.
 
     error (T, 2) : of position [m] and orientation [rad]; reached (T,) : whether both are round-off. manipulability : √det(J Jᵀ) and

@@ -15,7 +15,7 @@ from nivel.errors import ModelError
 from nivel.extras import needed
 from nivel.files.target import write_page
 from nivel.known import Inline, Result
-from nivel.lazy import dataclass, field, nivel, provided, scipy, xarray
+from nivel.lazy import Struct, field, nivel, provided, scipy, xarray
 from nivel.machine.core.vectors import Array, Complex
 from nivel.results.analyses.sampled_model import SampledModel, participation, taking_part
 from nivel.results.frames.tabulated import Column, Rows, Tabulated, chosen
@@ -26,8 +26,7 @@ FREQUENCIES: Final = 400
 LISTED: Final = 12  # modes in a text
 
 
-@dataclass(frozen=True)
-class Mode:
+class Mode(Struct):
     """An eigenvalue [1/s], or a pair of complex ones by that with the positive imaginary part.
 
     natural_frequency [Hz] : |λ|/2π. damping_ratio : -Re λ/|λ|, not a number for λ = 0. structural : exactly zero, whatever the numbers of
@@ -67,8 +66,7 @@ class Mode:
         return f"± {value.imag:.6g}i" if self.kind == "undamped vibration" else f"{value.real:.6g} ± {value.imag:.6g}i"
 
 
-@dataclass(frozen=True)
-class LinearModel(Tabulated):
+class LinearModel(Struct, Tabulated):
     """δẋ = A δx + B δu, δy = C δx + D δu about a state of a machine at `time` [s].
 
     states, inputs, outputs : names; *_units : their units. M, damping, K (m, m) : Zᵀ M Z, Zᵀ D Z and Zᵀ K Z in the independent

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
 from nivel.files.target import write_page
-from nivel.lazy import dataclass, field, provided, scipy, xarray
+from nivel.lazy import Struct, field, provided, scipy, xarray
 from nivel.machine.core.vectors import Array, Complex
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import ExpressionError
@@ -26,8 +26,7 @@ TURN = 2.0 * np.pi
 MET = 1e-12
 
 
-@dataclass(frozen=True)
-class Crossing:
+class Crossing(Struct):
     """Where a vibration has `order` times the speed: between two values of the parameter, by interpolation.
 
     value : of the parameter, in its unit; speed [rad/s]; frequency [Hz].
@@ -46,8 +45,7 @@ class Crossing:
         return f"mode {self.mode} has {self.order:g} times the speed at {at}, {self.frequency:.6g} Hz"
 
 
-@dataclass(frozen=True)
-class LinearSweep:
+class LinearSweep(Struct):
     """Models at ascending `values` of a parameter, all with the same states.
 
     Modes are followed from value to value by their eigenvectors, |wᴴ x|, and their eigenvalues. trust : the trust report of all models.

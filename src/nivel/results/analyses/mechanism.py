@@ -12,7 +12,7 @@ from nivel.elements.joints import drawn
 from nivel.errors import Fault, ModelError
 from nivel.files.target import write_page
 from nivel.known import MachineRecord, Result
-from nivel.lazy import dataclass, field, provided, xarray
+from nivel.lazy import Struct, field, provided, xarray
 from nivel.machine.core.vectors import Array
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.uses.coordinate_reference import unknown_name
@@ -29,8 +29,7 @@ APART: Final = 1e-9
 GOOD: Final = np.radians(40.0)
 
 
-@dataclass(frozen=True)
-class Point:
+class Point(Struct):
     """A point of a body, in the axes of the body's frame [m]."""
 
     name: str
@@ -38,8 +37,7 @@ class Point:
     position: tuple[float, float, float]
 
 
-@dataclass(frozen=True)
-class Transmission:
+class Transmission(Struct):
     """The angle at the second of three joints, between the lines to the other two."""
 
     joints: tuple[str, str, str]
@@ -190,8 +188,7 @@ def _held(joint: dict[str, Any], bodies: Sequence[str]) -> tuple[str | None, Arr
     return None, np.array(ends[0][1], dtype=float)
 
 
-@dataclass(frozen=True)
-class Range:
+class Range(Struct):
     """How far a joint coordinate can go: from `low` to `high` [rad or m]; full_turn : it turns right round, both ways.
 
     low_reason, high_reason : what ends it there, in a sentence; empty where nothing does. trust : the trust report.
@@ -222,8 +219,7 @@ class Range:
         return f"{value:.9g} {self.unit}" + (f" ({np.degrees(value):.6g}°)" if self.unit == "rad" else "")
 
 
-@dataclass(frozen=True)
-class Turning:
+class Turning(Struct):
     """A place `arc` of the curve at which the coordinate turns back, its value [rad or m] there, and the joints that hold it there."""
 
     arc: float
@@ -231,8 +227,7 @@ class Turning:
     joints: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class ConfigurationCurve(Tabulated):
+class ConfigurationCurve(Struct, Tabulated):
     """values (T, m) [rad, m] of the joint coordinates `names` at the places `arc` (T,), the way of all bodies in machine lengths and rad.
 
     closed : it comes back to where it began. coordinate : whose turning points are given. crossed : places at which another curve of
@@ -291,8 +286,7 @@ class ConfigurationCurve(Tabulated):
         return "\n".join(lines)
 
 
-@dataclass(frozen=True)
-class Studies:
+class Studies(Struct):
     """Coupler curves and transmission angles of a result. curves : (point, its dataset); angles : (what, its array [rad])."""
 
     name: str

@@ -7,7 +7,7 @@ import numpy as np
 from nivel.errors import ModelError
 from nivel.integrate.loop.sink import Header
 from nivel.known import LinearModel, Result
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 from nivel.results.frames.contents import MemoryContents
 from nivel.system.layout import Entry, laid_out
@@ -107,8 +107,7 @@ def _name(result: Result, number: int, frame: int) -> str:
     return f"vibration {number}: {np.sqrt(square) / (2.0 * np.pi):.4g} Hz"
 
 
-@dataclass(frozen=True)
-class Posed:
+class Posed(Struct):
     """Where the bodies of a machine are: their names, places (B, 3) [m], Euler parameters (B, 4), and the attributes of a result."""
 
     bodies: tuple[str, ...]

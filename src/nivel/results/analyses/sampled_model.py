@@ -5,7 +5,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.lazy import dataclass, scipy
+from nivel.lazy import Struct, scipy
 from nivel.machine.core.vectors import Array, Complex
 
 ROUND_OFF: Final = 1e-7  # by which a pole on the unit circle may be outside
@@ -27,8 +27,7 @@ def taking_part(states: tuple[str, ...], share: Array) -> tuple[tuple[str, float
     return tuple((states[k], float(share[k])) for k in order if share[k] >= SHARE)
 
 
-@dataclass(frozen=True)
-class Pole:
+class Pole(Struct):
     """A pole z, or a pair of complex ones by that with the positive imaginary part.
 
     natural_frequency [Hz], damping_ratio : of s = ln(z)/T, not numbers for z = 0 and z = 1. participation : (name, share) of the states
@@ -54,8 +53,7 @@ class Pole:
         return f"z = {self.number_in_words}{'' if np.isnan(self.natural_frequency) else continuous}; {taking}"
 
 
-@dataclass(frozen=True)
-class Loop:
+class Loop(Struct):
     """The loop that is opened at a sampled value which acts on the machine, all others closed. L(z) is the loop with the sign of a negative
     feedback: the closed loop has its poles where L = -1.
 
@@ -90,8 +88,7 @@ class Loop:
         return f"loop {self.name}: {gain}, {phase}{delay}"
 
 
-@dataclass(frozen=True)
-class SampledModel:
+class SampledModel(Struct):
     """x[k + 1] = transition x[k]: the states of the machine, then sampled values, one `period` T [s] later, small changes.
 
     The machine moves between samples by its exact linear equations with constant commands (zero-order hold). poles (n,) : eigenvalues of

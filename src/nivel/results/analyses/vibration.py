@@ -19,7 +19,7 @@ from nivel.files.csv_tables import CsvError, numeric_columns
 from nivel.files.measured_file import KINDS
 from nivel.files.sources import read_bytes, read_text
 from nivel.known import LinearModel, Result
-from nivel.lazy import dataclass, scipy, xarray
+from nivel.lazy import Struct, scipy, xarray
 from nivel.machine.core.vectors import Array
 from nivel.machine.study.any_quantity import another_measure
 from nivel.machine.units.quantity import ANY, read_quantity
@@ -39,8 +39,7 @@ ITERATIONS: Final = 6  # each leaves the share of the interval by which rates ch
 OVERLAP: Final = 8  # windows of a waterfall that overlap
 
 
-@dataclass(frozen=True)
-class Spectrum:
+class Spectrum(Struct):
     """A power spectral density of an input: levels (n,) at frequencies (n,) [Hz], straight in logarithms between them, nothing beyond;
     without frequencies white noise of one level."""
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from nivel.elements.circuits.fluids import ATMOSPHERE, REFERENCE_PRESSURE
 from nivel.elements.circuits.spool_valves import ends_of
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.results.scales import Readable
 
 START: Final = "hydraulics."
@@ -73,8 +73,7 @@ DRIVEN: Final = ("pump", "hydraulic-motor", "flow-source")
 INNER: Final = ("M", "N", "C", "R", "X", "Y")
 
 
-@dataclass(frozen=True)
-class ComponentBalance:
+class ComponentBalance(Struct):
     """Of one component: the largest flow [m³/s] and difference of pressure [Pa], both without their signs, and over the run the energies
     [J] that it takes from a shaft, that it gives to bodies, and that it loses."""
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 import nivel
 from nivel.errors import ModelError
 from nivel.integrate.loop.sink import Header
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.system.layout import Variable
 
 
@@ -150,8 +150,7 @@ class MemoryContents:
 COMPONENTS = ("xyz", "euler_parameter")
 
 
-@dataclass(frozen=True)
-class Selection:
+class Selection(Struct):
     """A part of a variable: `where` selects along its dimensions, time (all of it) first."""
 
     variable: str

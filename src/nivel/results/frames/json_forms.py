@@ -7,11 +7,10 @@ described in `nivel.system.scene`.
 
 from typing import Any, Final
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 
 
-@dataclass(frozen=True)
-class Either:
+class Either(Struct):
     """One of these forms; None is a form too."""
 
     forms: tuple[Any, ...]

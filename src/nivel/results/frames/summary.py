@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from nivel.known import Result
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 from nivel.words.wording import counted
 
@@ -132,8 +132,7 @@ def _when(times: Sequence[float]) -> str:
 ATTRIBUTE = "iterations"  # of results
 
 
-@dataclass(frozen=True)
-class Iterations:
+class Iterations(Struct):
     """Of each of the parts of the duration (at most 1024, all of one length) in which steps ended.
 
     time : (n,) [s] at its end. begin : (n,) [s] at its begin. steps : (n,) that ended in it. total : (n,) iterations of these.

@@ -5,7 +5,7 @@ import numpy as np
 from nivel.analysis.curves.corners import rounding_of_times
 from nivel.judge.after.report import FRAMES, SECOND_RUN, STEPS, Check, Need, blindness
 from nivel.judge.after.subject import Run, Scales
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 from nivel.results.motion import Motion, Peak, distances
 from nivel.results.scales import Readable, levers, machine_size
@@ -24,8 +24,7 @@ VERIFIED = Need("a second run", lambda run: run.second is not None)
 MARGIN = 1.25
 
 
-@dataclass(frozen=True)
-class Accuracy:
+class Accuracy(Struct):
     """Estimated largest error of a position [m], of which body and when [s]. refinement : of the second run, in words. until : the time [s]
     up to which it went, None: to the end. blind : why the second run may be wrong as the first, in words; then parted [s]: from when on the
     two go different ways, None: they do not."""
@@ -40,8 +39,7 @@ class Accuracy:
     parted: float | None = None
 
 
-@dataclass(frozen=True)
-class Verified:
+class Verified(Struct):
     """The time [s] up to which a run was verified, and why not further."""
 
     until: float
@@ -145,8 +143,7 @@ POWERS_OF_E, LEAST_POINTS = 5.0, 8
 ABOVE, PARTED = 100.0, 0.1
 
 
-@dataclass(frozen=True)
-class Growth:
+class Growth(Struct):
     """Neighbouring motions part by e in `time_constant` [s], and have parted at `parted` [s]."""
 
     time_constant: float
@@ -196,8 +193,7 @@ ROUNDING = Threshold(
 FAR_AWAY = "{row} is so far from the origin that the motion in a step is below round-off"
 
 
-@dataclass(frozen=True)
-class Rounding:
+class Rounding(Struct):
     """The place farthest from the origin [m], what it is rounded to [m], and what that is in all steps of the run, as a share of the size
     of the machine."""
 

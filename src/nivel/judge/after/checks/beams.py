@@ -17,7 +17,7 @@ import numpy as np
 from nivel.analysis.assembly.equations import rotation_between
 from nivel.judge.after.report import FRAMES, OTHERS, STEPS, Check
 from nivel.judge.after.subject import Equilibria, Run
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.orientation import euler_parameters_from_matrix
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
@@ -34,8 +34,7 @@ MESH = Threshold(
 )
 
 
-@dataclass(frozen=True)
-class BeamMesh:
+class BeamMesh(Struct):
     """A beam of elements of this order, 1 or 2: nodes, their names from start to end; length (n,) [m] between them; stiffness (3,) [N m²]
     for twist and both curvatures; unstressed (n, 3) rotation vectors of each node against the one before."""
 
@@ -47,8 +46,7 @@ class BeamMesh:
     order: int = 1
 
 
-@dataclass(frozen=True)
-class Coarse:
+class Coarse(Struct):
     """A beam whose elements miss the share `share` of the largest energy of the machine, or of their own where that is larger, most at
     `time` [s]."""
 
@@ -136,16 +134,14 @@ def turns(theta: Array) -> Array:
 SOFT: Final = 0.5  # of the lowest stiffness of the machine as drawn: below it loads have taken much of it
 
 
-@dataclass(frozen=True)
-class OtherStability:
+class OtherStability(Struct):
     """At `time` [s] the number of unstable directions is another with other elements, `words` says which."""
 
     time: float
     words: str
 
 
-@dataclass(frozen=True)
-class Softened:
+class Softened(Struct):
     """At `time` [s] loads have taken the share `taken` of the lowest stiffness; what is left is wrong by the share `off` of it, infinite
     where finer elements leave nothing."""
 

@@ -11,7 +11,7 @@ from nivel.integrate.loop.run import LEAST, PARTS, TAKEN
 from nivel.judge.after.passages import LEAST_FRAMES, Passage, Track, can_be_singular, passages, row_pivots, why_not
 from nivel.judge.after.report import SECOND_RUN, STEPS, Check
 from nivel.judge.after.subject import Run
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 from nivel.results.scales import Readable
 from nivel.results.trust import Item
@@ -20,15 +20,13 @@ SHOWN = 5  # times in a sentence
 SEVERAL = "at t = {time} s the motion may continue in more than one way"
 
 
-@dataclass(frozen=True)
-class Passages:
+class Passages(Struct):
     """All passages of a run, in the order of time."""
 
     every: tuple[Passage, ...]
 
 
-@dataclass(frozen=True)
-class Unsearched:
+class Unsearched(Struct):
     """Why singular positions were not searched for."""
 
     why: str
@@ -73,8 +71,7 @@ MOST = 20  # intervals between frames that are examined
 SURFACES = ("contact", "stop")
 
 
-@dataclass(frozen=True)
-class Change:
+class Change(Struct):
     """A motion that changes its branch at `time` [s], in a position where rows of `joints` depend on each other. struck : the machine has
     surfaces, which may make velocities jump too. second : it is that of the second run."""
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from nivel.judge.after.checks.energy import BALANCE
 from nivel.judge.after.report import FRAMES, Check, Need
 from nivel.judge.after.subject import Motion, Run
-from nivel.lazy import dataclass, nivel
+from nivel.lazy import Struct, nivel
 from nivel.results.scales import Readable
 from nivel.results.trust import Item, Threshold, number, quantity
 
@@ -28,8 +28,7 @@ GUARDED = Threshold(0.01, 0.1, "")
 CIRCUITS = Need("circuits", lambda run: f"{START}stored" in run.result.variables)
 
 
-@dataclass(frozen=True)
-class CircuitEnergy:
+class CircuitEnergy(Struct):
     """Energies [J] at the end: supplied, work on bodies, losses, stored; the largest error as a share of the largest of them, and its time
     [s]."""
 
@@ -41,16 +40,14 @@ class CircuitEnergy:
     time: float
 
 
-@dataclass(frozen=True)
-class FluidMass:
+class FluidMass(Struct):
     """The largest difference of the mass in all volumes and that which tanks gave, as a share, and its time [s]."""
 
     fraction: float
     time: float
 
 
-@dataclass(frozen=True)
-class Cavitation:
+class Cavitation(Struct):
     """A pressure, its lowest value [Pa] and the time of that [s], and the share of the frames in which the fluid cavitates."""
 
     name: str
@@ -59,24 +56,21 @@ class Cavitation:
     share: float
 
 
-@dataclass(frozen=True)
-class Saturation:
+class Saturation(Struct):
     """A valve that is at the end of its stroke all the time. relief : whether it is a relief valve."""
 
     name: str
     relief: bool
 
 
-@dataclass(frozen=True)
-class Stall:
+class Stall(Struct):
     """An engine that turns backwards, and from when on [s]."""
 
     name: str
     time: float
 
 
-@dataclass(frozen=True)
-class Guard:
+class Guard(Struct):
     """Steps of a run over circuits, those among them that were made in parts, the parts whose extrapolation was not taken, and the largest
     difference [Pa] of a pressure between one step and two of half the length."""
 
@@ -235,8 +229,7 @@ LEAST = 5  # frames of which something can be said
 SOME_FRAMES = Need("frames", lambda run: len(run.result.time) > LEAST)
 
 
-@dataclass(frozen=True)
-class Saturated:
+class Saturated(Struct):
     """A block whose value was a limit in all frames but the first."""
 
     name: str

@@ -12,7 +12,7 @@ from nivel.judge.after.report import FRAMES, STEPS, Check
 from nivel.judge.after.subject import Equilibria, Motion, Run
 from nivel.judge.after.touching_pairs import Passed
 from nivel.known import Contact, Contacts
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 from nivel.results.scales import Readable, machine_size
 from nivel.results.trust import Item, Threshold, number
@@ -44,8 +44,7 @@ CREEP = Threshold(
 )
 
 
-@dataclass(frozen=True)
-class Creep:
+class Creep(Struct):
     """A contact, how far its bodies creep in all [m], as a share of the machine's size, and the time [s] and speed [m/s] where they are
     fastest."""
 
@@ -105,8 +104,7 @@ NORMAL = ".normal_force"
 PULLED = 1e-9
 
 
-@dataclass(frozen=True)
-class Wheel:
+class Wheel(Struct):
     """The least normal force [N] on a wheel and its time [s]; lifts : from when on the plane would have to pull [s], None: never. The
     largest ratio of friction and normal force, and its time [s]."""
 
@@ -162,8 +160,7 @@ LADEN = Threshold(
 )
 
 
-@dataclass(frozen=True)
-class Laden:
+class Laden(Struct):
     """The largest load of a tyre by its nominal load, and when [s]."""
 
     tyre: str
@@ -201,8 +198,7 @@ SPILT = Threshold(
 LEAST = 1e-9  # [m³] of volume moved, below which nothing was
 
 
-@dataclass(frozen=True)
-class Moved:
+class Moved(Struct):
     """Of all soil: volume moved [m³], and what is missing and what fell beyond the border by that, where it is most; a force on it."""
 
     force: str

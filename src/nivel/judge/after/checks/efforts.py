@@ -14,7 +14,7 @@ from nivel.judge.after.checks.positions import Histories, Opening
 from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Actuated, Positions, Scales
 from nivel.known import Driver
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.units.tree import ExpressionError
 from nivel.results.trust import Item, Verdict, number
@@ -26,8 +26,7 @@ from nivel.words.wording import first_of
 GREEN, AMBER = 1e-9, 1e-7
 
 
-@dataclass(frozen=True)
-class Followed:
+class Followed(Struct):
     """The driver that is followed worst, by how much it is missed [m or rad], when [s]; how many are compared, of how many."""
 
     driver: str
@@ -144,16 +143,14 @@ def say_replaced(found: Followed) -> Item:
 SHOWN = 4  # states in a sentence
 
 
-@dataclass(frozen=True)
-class OfMotion:
+class OfMotion(Struct):
     """The verdict on the motion, and its headline."""
 
     verdict: Verdict
     headline: str
 
 
-@dataclass(frozen=True)
-class Missing:
+class Missing(Struct):
     """The largest share of the generalised forces that no effort gives, when [s], as which effort on which coordinate (empty: on none
     alone), and whether limits hold efforts back."""
 
@@ -164,8 +161,7 @@ class Missing:
     limited: bool
 
 
-@dataclass(frozen=True)
-class Surplus:
+class Surplus(Struct):
     """How many actuators more than needed there are."""
 
     actuators: int

@@ -9,7 +9,7 @@ from nivel.judge.after.checks.beams import MESH
 from nivel.judge.after.other_elements import Compared, ElementErrors, Pair
 from nivel.judge.after.report import FRAMES, OTHERS, Check
 from nivel.judge.after.subject import Equilibria, Run
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 from nivel.results.motion import common_frames
 from nivel.results.scales import Readable, machine_size
@@ -22,8 +22,7 @@ LEAST_REACTION: Final = 1e-3
 ROUND_OFF: Final = 1e-13  # of the stiffness EA: reactions below are none
 
 
-@dataclass(frozen=True)
-class Farthest:
+class Farthest(Struct):
     """The largest error of a place by elements [m], of which body and when [s]."""
 
     error: float
@@ -31,8 +30,7 @@ class Farthest:
     time: float
 
 
-@dataclass(frozen=True)
-class Unfinished:
+class Unfinished(Struct):
     """The machine with other elements, `words` says which, did not come to its end, `why`. needed : it is one of equilibria, which are not
     sure then."""
 
@@ -41,8 +39,7 @@ class Unfinished:
     needed: bool
 
 
-@dataclass(frozen=True)
-class Off:
+class Off(Struct):
     """What is wrong most against its scale. error, scale [units] at `time` [s]; beams : whose elements do it."""
 
     name: str

@@ -13,7 +13,7 @@ import numpy as np
 from nivel.elements.forces import FORCES
 from nivel.judge.after.report import SECOND_RUN, Check, Need
 from nivel.judge.after.subject import Motion, Run
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.results.motion import common_frames, peak
 from nivel.results.scales import (
     Readable,
@@ -35,8 +35,7 @@ BALANCE = Threshold(
 )
 
 
-@dataclass(frozen=True)
-class Unresolved:
+class Unresolved(Struct):
     """A force, the work [J] that its power at this time [s] does in a step [s], and the largest energy of the run [J]: kinetic, change of
     potential energy, or work of external forces. A slow machine under loads has far more of the latter than a force does in one step."""
 
@@ -47,8 +46,7 @@ class Unresolved:
     energy: float
 
 
-@dataclass(frozen=True)
-class Energy:
+class Energy(Struct):
     """The largest energy error [J] and its time [s], the energy [J] that it is compared with and what that is.
 
     force : that does the work `force_work` [J] in the step [s] from `force_time` [s], and so may be what is wrong; `others` : all other
@@ -149,8 +147,7 @@ DAMPS = "their method damps vibrations"
 IMPLICIT = Need("an implicit method", lambda run: run.prepared.integrator.needs != "evaluations")
 
 
-@dataclass(frozen=True)
-class Damped:
+class Damped(Struct):
     """Energy [J] that the run lost, and what the second run did. method : the integrator. longer : the steps of the second run are."""
 
     lost: float

@@ -4,7 +4,7 @@ import numpy as np
 
 from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Equilibria
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.results.motion import peak
 from nivel.results.trust import Item, Threshold, Verdict, number
 from nivel.words.wording import first_of
@@ -18,8 +18,7 @@ RESIDUAL = Threshold(
 )
 
 
-@dataclass(frozen=True)
-class Residual:
+class Residual(Struct):
     """The largest unbalanced force, as a share of the largest load, and its time [s]. rounded : round-off of positions explains all that
     is not green."""
 
@@ -28,8 +27,7 @@ class Residual:
     rounded: bool
 
 
-@dataclass(frozen=True)
-class Stability:
+class Stability(Struct):
     """States of all that are unstable, in how many directions at most, and the time [s] of the first. known : False where it depends on
     sampled blocks. conservative : all loads have a potential."""
 
@@ -41,8 +39,7 @@ class Stability:
     conservative: bool = True
 
 
-@dataclass(frozen=True)
-class Remark:
+class Remark(Struct):
     """What is said of all states: name of the line, verdict, and text."""
 
     line: str

@@ -16,7 +16,7 @@ from nivel.judge.after.flexible_bodies import Bent, ModalBody, modal_bodies
 from nivel.judge.after.report import FRAMES, STEPS, Check
 from nivel.judge.after.subject import Equilibria, Run
 from nivel.known import Invariants
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.tree import TIME
@@ -109,8 +109,7 @@ NEGLECTED = Threshold(
 )
 
 
-@dataclass(frozen=True)
-class Neglected:
+class Neglected(Struct):
     """A body whose modal coordinates are the columns first to last - 1 of a run, its invariants, and names of those it moves without."""
 
     body: str
@@ -138,8 +137,7 @@ class Neglected:
         return np.concatenate(parts, axis=1).max(axis=1)
 
 
-@dataclass(frozen=True)
-class Cost:
+class Cost(Struct):
     """The largest share of a mass matrix that was neglected, its body, the names of what was neglected there, and the time [s]."""
 
     share: float
@@ -190,8 +188,7 @@ LEAST_DAMPING = 0.005  # of critical: structures have no less
 LINE = 3.0  # times what surrounds it: above that it is a line
 
 
-@dataclass(frozen=True)
-class Excited:
+class Excited(Struct):
     """A function whose vibration of `frequency` [Hz] may move the body by the share `share` of what all of it does; the modes of the body
     end at `limit` [Hz]."""
 

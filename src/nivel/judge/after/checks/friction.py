@@ -11,7 +11,7 @@ from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Run
 from nivel.kernels.elements import friction as columns
 from nivel.known import Contact, Friction
-from nivel.lazy import dataclass, scipy
+from nivel.lazy import Struct, scipy
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import resolve
 from nivel.results.frames.contents import own_units
@@ -32,8 +32,7 @@ MOST_PATTERNS = 8  # sets of contacts that stick
 LEFT = 1e-7
 
 
-@dataclass(frozen=True)
-class Held:
+class Held(Struct):
     """A friction with stiction on a joint coordinate (`pin.angle`) whose motion is prescribed by these drivers, or without any of them by
     these joints and couplings."""
 
@@ -43,8 +42,7 @@ class Held:
     others: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class Sticking:
+class Sticking(Struct):
     """A friction with stiction on a joint coordinate that may move.
 
     left : (n,) unit direction of the coordinate's derivative in the motions that the constraints allow. static : its greatest effort at
@@ -58,8 +56,7 @@ class Sticking:
     viscous: float
 
 
-@dataclass(frozen=True)
-class Shared:
+class Shared(Struct):
     """Who holds which joint coordinates at rest together, which results are not unique then, and the times [s] of the first and the last
     frame of each span in which they do.
 
@@ -72,8 +69,7 @@ class Shared:
     spans: tuple[tuple[float, float], ...]
 
 
-@dataclass(frozen=True)
-class SharedLoads:
+class SharedLoads(Struct):
     """Who shares loads in no certain way, and the results that are not unique then."""
 
     shared: tuple[Shared, ...]

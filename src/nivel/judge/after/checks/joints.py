@@ -2,13 +2,12 @@
 
 from nivel.judge.after.report import Check
 from nivel.judge.after.subject import Equilibria, Motion, Positions, Recorded, Run, Scales
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.results.motion import worst_row
 from nivel.results.trust import Item, Threshold, Verdict, number
 
 
-@dataclass(frozen=True)
-class Freedom:
+class Freedom(Struct):
     """Degrees of freedom of velocities, and of positions where that is another number. modes : of flexible bodies among them. drivers :
     motions that are prescribed. circuit : whether there are no bodies, and a circuit is all."""
 
@@ -56,8 +55,7 @@ def say_freedom(found: Freedom) -> Item | None:
     return Item("degrees_of_freedom", "green", f"Freedom: {degrees}{modes} (green with 1 or more)")
 
 
-@dataclass(frozen=True)
-class Redundancy:
+class Redundancy(Struct):
     """Rows that repeat others, and the joints whose reactions depend on which of them are kept."""
 
     rows: tuple[str, ...] = ()
@@ -106,8 +104,7 @@ GREEN, AMBER = 1e-9, 1e-6
 VELOCITIES = "Velocities fit the joints"
 
 
-@dataclass(frozen=True)
-class Violation:
+class Violation(Struct):
     """The constraint row that is violated most, when [s], and by how much, in the units m, rad or 1 (of rates per second)."""
 
     value: float

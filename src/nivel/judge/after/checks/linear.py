@@ -8,13 +8,12 @@ from nivel.judge.after.checks.beams import MESH
 from nivel.judge.after.checks.modes import NEAR_LEFT, modal_bases
 from nivel.judge.after.report import Check, Need
 from nivel.judge.after.subject import Linearisation
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.results.trust import Item, number
 from nivel.words.wording import first_of
 
 
-@dataclass(frozen=True)
-class Steadiness:
+class Steadiness(Struct):
     """Whether the machine moves, and why it does so unsteadily, in sentences; none where it is steady."""
 
     moves: bool
@@ -38,8 +37,7 @@ def say_steadiness(found: Steadiness) -> Item:
 GROWTH = 1e-6
 
 
-@dataclass(frozen=True)
-class Hidden:
+class Hidden(Struct):
     """A mode that grows by `rate` [1/s], which is known to `known` [1/s] alone."""
 
     mode: int
@@ -71,8 +69,7 @@ def say_growth(found: Hidden) -> Item:
 SHOWN = 4  # kinks in a sentence
 
 
-@dataclass(frozen=True)
-class Kinked:
+class Kinked(Struct):
     """The kinks at a state in words, and whether a force jumps at one of them."""
 
     kinks: tuple[str, ...]
@@ -99,8 +96,7 @@ TURN = 2.0 * np.pi
 OTHERS = Need("a machine with other elements of beams", lambda subject: subject.others is not None)
 
 
-@dataclass(frozen=True)
-class WrongByElements:
+class WrongByElements(Struct):
     """The elements of `beams`, of this lowest order: which share of itself the vibration of the mode `first`, of this frequency [Hz], is
     off by, the first of those that are off by more than the limit; `below` the most of slower ones, or of all where `first` is None.
     slowest : the share of the slowest one. why : nothing of this is known."""
@@ -116,8 +112,7 @@ class WrongByElements:
     why: str = ""
 
 
-@dataclass(frozen=True)
-class BeyondModes:
+class BeyondModes(Struct):
     """A flexible body that leaves out modes from the frequency `left` [Hz] on, so that vibrations above `limit` [Hz] are not its own, of
     which there are some; whether all are."""
 

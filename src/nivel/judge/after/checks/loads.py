@@ -14,7 +14,7 @@ from nivel.analysis.curves.path import Path, Steps, path_of, steps_between, step
 from nivel.judge.after.checks.accuracy import error_from_finer, extent
 from nivel.judge.after.report import STEPS, Check
 from nivel.judge.after.subject import Run
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.core.vectors import Array
 from nivel.machine.laws.functions import Sampling
 from nivel.machine.machine_record import MachineRecord
@@ -158,8 +158,7 @@ def _beyond(function: Varying, sampling: Sampling, end: float) -> Unseen | None:
 SAMPLES = 16
 
 
-@dataclass(frozen=True)
-class Passed:
+class Passed(Struct):
     """An event that was passed unseen near `time` [s], within a step [s] in which its side changes more than once; how many such passes."""
 
     event: str
@@ -235,8 +234,7 @@ def say_event(found: Passed) -> Item:
 NAMED = 6  # names in a sentence
 
 
-@dataclass(frozen=True)
-class Unexamined:
+class Unexamined(Struct):
     """Names of functions that read a signal which is not in the result, of Python laws, which are known at samples only, of contacts with
     more fast pairs than *Contact* looks at, and of functions whose bounds stay wide for longer than the steps take."""
 

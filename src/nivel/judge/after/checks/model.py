@@ -11,7 +11,7 @@ from nivel.elements.joints.joint import CoordinateRates
 from nivel.judge.after.report import FRAMES, Check
 from nivel.judge.after.subject import Equilibria, Linearisation, Positions, Run
 from nivel.judge.before.unusual import excess, in_words, remarks, stretched_ropes
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.bodies.body import Body
 from nivel.machine.given import Usual
 from nivel.machine.machine_record import MachineRecord
@@ -19,8 +19,7 @@ from nivel.results.trust import ROUND_OFF, Item, Threshold, number
 from nivel.system.joint_frames import as_placed
 
 
-@dataclass(frozen=True)
-class Loss:
+class Loss(Struct):
     """A part of the model that has an influence on the motion and is not in the machine."""
 
     part: str
@@ -40,8 +39,7 @@ def say_loss(loss: Loss) -> Item:
 AT_REST = 1e-6  # of the machine's size, or of a radian: bodies that stay nearer to their start do not move
 
 
-@dataclass(frozen=True)
-class Still:
+class Still(Struct):
     """A run in which nothing moves: how far any body was from its start [m] and [rad] at most."""
 
     distance: float
@@ -68,8 +66,7 @@ def say_rest(found: Still) -> Item:
     return Item("still", "green", f"{text} (said, always green)")
 
 
-@dataclass(frozen=True)
-class Missed:
+class Missed(Struct):
     """An event that never came, and whether it would have ended the run."""
 
     name: str
@@ -97,8 +94,7 @@ UNUSUAL = Threshold(
 )
 
 
-@dataclass(frozen=True)
-class Unusual:
+class Unusual(Struct):
     """A number of the machine file or of the result, in words, and by how many times it is beyond what is usual; infinite where that is
     no matter of its size. time [s] : of a result, when it is largest."""
 
@@ -187,8 +183,7 @@ SNAPPED = Threshold(
 )
 
 
-@dataclass(frozen=True)
-class Moved:
+class Moved(Struct):
     """The body that was moved farthest to close a joint: its name, by how much [m] and [rad], as a share of the machine's size or of a
     radian, and the row that was open by `gap`."""
 
@@ -200,8 +195,7 @@ class Moved:
     row: str
 
 
-@dataclass(frozen=True)
-class Settled:
+class Settled(Struct):
     """The body that is farthest from where it was given in the equilibrium from which a run starts: by how much [m] and [rad], and its
     distance as a share of the machine's size."""
 
@@ -211,8 +205,7 @@ class Settled:
     share: float
 
 
-@dataclass(frozen=True)
-class Changed:
+class Changed(Struct):
     """The body whose given velocity was changed most: by how much [m/s] and [rad/s], and as a share of what was given."""
 
     name: str

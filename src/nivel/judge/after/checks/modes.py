@@ -17,7 +17,7 @@ from nivel.judge.after.flexible_bodies import Bent, ModalBody, numbered_bodies
 from nivel.judge.after.report import FRAMES, STEPS, Check, Need
 from nivel.judge.after.subject import Equilibria, Run
 from nivel.known import Interface, Invariants, LeftOut, MeshError, Prepared
-from nivel.lazy import dataclass, nivel, replace
+from nivel.lazy import Struct, nivel, replace
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.scales import Readable, rotated
@@ -41,8 +41,7 @@ ENERGY_LEFT_OUT = Threshold(
 )
 
 
-@dataclass(frozen=True)
-class Held:
+class Held(Struct):
     """A joint of this name at interface `at`: `sign` of its reaction as the result has it, 1 on its first body."""
 
     joint: str
@@ -50,8 +49,7 @@ class Held:
     sign: float
 
 
-@dataclass(frozen=True)
-class Basis:
+class Basis(Struct):
     """The modes of a body. its : inertia invariants; left : modes left out, phi at the interfaces in use alone. phi (i, 6, n) and place
     (i, 3) [m] : of these interfaces. damping (n,) [1/s], damping_ratio : of the modes. gravity (3,) [m/s²]. mesh :
     what its mesh makes wrong, where it is known."""
@@ -68,8 +66,7 @@ class Basis:
     mesh: MeshError | None = None
 
 
-@dataclass(frozen=True)
-class Lacking:
+class Lacking(Struct):
     """A body that lacks modes: energy of those left out as a share of its own, when [s], and the frequency [Hz] of the one with most."""
 
     body: str
@@ -79,8 +76,7 @@ class Lacking:
     modes: int
 
 
-@dataclass(frozen=True)
-class Unsure:
+class Unsure(Struct):
     """A vibration whose frequency [Hz] is too high by the share `share` of it, 1 at most, by modes that the body lacks, of which the lowest
     is at `lowest` [Hz]."""
 
@@ -91,8 +87,7 @@ class Unsure:
     lowest: float
 
 
-@dataclass(frozen=True)
-class _Motion:
+class _Motion(Struct):
     """Of a body in its own axes: a (t, 3) less gravity, alpha, omega; modal p, pdot, pddot (t, n)."""
 
     a: Array

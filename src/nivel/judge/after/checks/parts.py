@@ -11,7 +11,7 @@ from nivel.judge.after.checks.modes import BACK
 from nivel.judge.after.report import ESTIMATE, STEPS, Check
 from nivel.judge.after.subject import Run
 from nivel.known import Contacts
-from nivel.lazy import dataclass, is_dataclass
+from nivel.lazy import Struct, is_dataclass
 from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.bodies.shape import Sphere
 from nivel.machine.core.record import Record
@@ -30,8 +30,7 @@ OWN_MOTION = Threshold(
 )
 
 
-@dataclass(frozen=True)
-class OwnError:
+class OwnError(Struct):
     """The part that is wrong most against its own motion. error and extent of its motion [units]; of turning up to a radian."""
 
     name: str
@@ -93,8 +92,7 @@ WORD = re.compile(r"[^\W\d]\w*(?:-\w+)*")
 MOST = 50  # parts: machines of more are not looked at
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(Struct):
     """Rigid bodies that joints and forces join to each other, and to no others but the ground: mass (b,) [kg], centre (b, 3) [m] and
     inertia (b, 3, 3) [kg m²] about it, body axes; gravity (3,) [m/s²]."""
 
@@ -105,8 +103,7 @@ class Part:
     gravity: Array
 
 
-@dataclass(frozen=True)
-class PartError:
+class PartError(Struct):
     """A part whose energy is wrong by `error` [J] at `time` [s], and its own energy [J]."""
 
     body: str

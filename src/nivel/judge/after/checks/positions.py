@@ -5,7 +5,7 @@ import numpy as np
 from nivel.judge.after.checks.joints import OPENING
 from nivel.judge.after.report import Check
 from nivel.judge.after.subject import Curve, Led, Positions, Reach
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.results.trust import Item, Threshold, Verdict, number
 from nivel.words.wording import first_of
 
@@ -13,15 +13,13 @@ from nivel.words.wording import first_of
 NEAR_SINGULAR, SHOWN = 1e-3, 4
 
 
-@dataclass(frozen=True)
-class Shortened:
+class Shortened(Struct):
     """Steps that were shortened on the way."""
 
     count: int
 
 
-@dataclass(frozen=True)
-class Branches:
+class Branches(Struct):
     """The least singular value of the constraints, as a share of that at the start, its time [s], and the joints that depend on each other
     most there. passed : pairs of times [s] between which a singular position was passed."""
 
@@ -31,8 +29,7 @@ class Branches:
     passed: tuple[tuple[float, float], ...]
 
 
-@dataclass(frozen=True)
-class Histories:
+class Histories(Struct):
     """First-order states that a motion does not have; they keep their values of the start."""
 
     states: tuple[str, ...]
@@ -101,8 +98,7 @@ ENDS = Threshold(
 )
 
 
-@dataclass(frozen=True)
-class Reached:
+class Reached(Struct):
     """How many places are reached of how many; the largest errors of those [m], [rad], and of the others."""
 
     count: int
@@ -112,8 +108,7 @@ class Reached:
     missed: float
 
 
-@dataclass(frozen=True)
-class Postures:
+class Postures(Struct):
     """Times [s] at which a posture was found only from another start, so that coordinates may jump, and at which it is near a singular
     one."""
 
@@ -121,16 +116,14 @@ class Postures:
     singular: tuple[float, ...]
 
 
-@dataclass(frozen=True)
-class Ways:
+class Ways(Struct):
     """The worst line of the kinematic analyses of both ways: its verdict and text, empty where all are green."""
 
     verdict: Verdict
     text: str
 
 
-@dataclass(frozen=True)
-class Ends:
+class Ends(Struct):
     """What the ends of a range differ by from the nearest turning points, as a share of the range; at which end [rad or m]."""
 
     difference: float
@@ -138,15 +131,13 @@ class Ends:
     unit: str
 
 
-@dataclass(frozen=True)
-class Opening:
+class Opening(Struct):
     """How far joints are open at most, as a share of their sizes."""
 
     share: float
 
 
-@dataclass(frozen=True)
-class Whole:
+class Whole(Struct):
     """Whether a curve comes back to where it began, and at how many places others cross it."""
 
     closed: bool

@@ -10,7 +10,7 @@ from nivel.judge.after.flexible_bodies import MODAL, ModalBody, modal_bodies, po
 from nivel.judge.after.report import ESTIMATE, Check
 from nivel.judge.after.subject import Run
 from nivel.known import Contact
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.core.vectors import Array
 from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.measure import measure
@@ -45,8 +45,7 @@ FLAGS = (".sticks", ".count")  # whole numbers, which jump
 ENERGIES = ("kinetic_energy", "potential_energy", "dissipated_energy", "external_work", "energy_error", "total_energy")
 
 
-@dataclass(frozen=True)
-class Group:
+class Group(Struct):
     """Numbers that have a line together, by the names of their variables and the units. at_rest : see AT_REST."""
 
     name: str
@@ -54,8 +53,7 @@ class Group:
     at_rest: float = AT_REST
 
 
-@dataclass(frozen=True)
-class QuantityError:
+class QuantityError(Struct):
     """The number of a group that is wrong most on its own scale. error : its largest one; mean : their mean magnitude; extent : its
     range in the run; largest : the largest error of all numbers of the group in these `units`. beams : what the elements of beams make
     wrong of it is not looked at here. points : of a flexible body, on the scale of the motion of its points. over : time [s] over which
@@ -104,8 +102,7 @@ GROUPS = (
 )
 
 
-@dataclass(frozen=True)
-class _Scales:
+class _Scales(Struct):
     """By variable, what its numbers are compared with at least: of points of flexible bodies, of contacts. shared : spans
     of time [s] in which variables have no error of their own."""
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from nivel.judge.after.report import FRAMES, Check, Need
 from nivel.judge.after.subject import Run
 from nivel.known import Contact
-from nivel.lazy import dataclass, nivel, replace
+from nivel.lazy import Struct, nivel, replace
 from nivel.machine.core.element import Acts, Holds
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
@@ -35,8 +35,7 @@ SLID = 1e-4
 DEEPER = 2.0
 
 
-@dataclass(frozen=True)
-class Contradiction:
+class Contradiction(Struct):
     """A state of `element` that contradicts its inequality at `time` [s], in words, and in how many frames. second : they are those of the
     second run."""
 
@@ -116,8 +115,7 @@ class Numbers:
         return self._read(before if before in self._result else f"hydraulics.{node}.pressure_{chamber}")
 
 
-@dataclass(frozen=True)
-class Frames:
+class Frames(Struct):
     """An element in the frames of a result."""
 
     run: Run
@@ -242,8 +240,7 @@ def _controls_errors(run: Run) -> bool:
 TOLERANCE = Need("a method with a tolerance", _controls_errors)
 
 
-@dataclass(frozen=True)
-class SmallState:
+class SmallState(Struct):
     """A first-order state whose `largest` magnitude stayed far below its `scale`, by which its errors were measured."""
 
     name: str
@@ -285,8 +282,7 @@ CHARGED = Threshold(
 )
 
 
-@dataclass(frozen=True)
-class Charged:
+class Charged(Struct):
     """The state of charge of the battery of a drive that is farthest `beyond` its `given` ones, the first and the last, and when [s]."""
 
     drive: str

@@ -11,7 +11,7 @@ from nivel.integrate.loop.run import TURNED
 from nivel.judge.after.report import FIXED_STEPS, FRAMES, Check, Need
 from nivel.judge.after.subject import Actuated, Positions, Run
 from nivel.judge.during.growth import fastest, held_step
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.results.curve import ROUNDED, Curve, curve, extreme
 from nivel.results.frames.contents import shape_of
 from nivel.results.frames.loads import with_probes
@@ -28,8 +28,7 @@ EXPLICIT = Need("an explicit method", lambda run: run.prepared.integrator.kind =
 RATES_KNOWN, MOVING = (FIXED_STEPS, EXPLICIT), (Run, Positions, Actuated)
 
 
-@dataclass(frozen=True)
-class Fast:
+class Fast(Struct):
     """The fastest rate [1/s] of a machine and the part that it is of, the step [s] of a run, and the longest with which `method` holds
     that rate [s]."""
 
@@ -72,8 +71,7 @@ TURN_IN_STEP = Threshold(
 TURNED_FAR = "{row} rotates too far in a step"
 
 
-@dataclass(frozen=True)
-class Turn:
+class Turn(Struct):
     """The largest angle [rad] by which a body turned in one step, and at which `time` [s]. counted : turns are part of the state, so that
     none is lost."""
 
@@ -121,16 +119,14 @@ MOTIONS = ("position", "joint_coordinate")
 NOT_SHOWN = (".sticks", ".count", "_local")
 
 
-@dataclass(frozen=True)
-class Hidden:
+class Hidden(Struct):
     """The number whose peak frames may hide most of, as a share of its largest stored value."""
 
     name: str
     share: float
 
 
-@dataclass(frozen=True)
-class Otherwise:
+class Otherwise(Struct):
     """The number that goes otherwise between frames, or positions, by `off` [units], the largest as a share of its range. motion : it is a
     place, or an analysis of positions was made, of which each number is one of the motion that was asked for."""
 

@@ -18,7 +18,7 @@ from nivel.judge.after.subject import (
     Sweep,
     Variant,
 )
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.trust import Item, Verdict, number
 from nivel.words.wording import first_of
@@ -26,8 +26,7 @@ from nivel.words.wording import first_of
 SHOWN = 4  # names in a sentence
 
 
-@dataclass(frozen=True)
-class Verification:
+class Verification(Struct):
     """What has examined a result, and what of it nothing has, in words that stand after "by" and after "not verified:"."""
 
     by: tuple[str, ...]
@@ -164,8 +163,7 @@ SAID: dict[type[Subject], dict[str, str]] = {
 }
 
 
-@dataclass(frozen=True)
-class Outcome:
+class Outcome(Struct):
     """How an analysis ended, in a word and a sentence."""
 
     outcome: str
@@ -190,8 +188,7 @@ ENDED = ("done", "stopped")  # outcomes of variants that ran as intended
 WORST = ("red", "amber")  # of which one is named
 
 
-@dataclass(frozen=True)
-class Ran:
+class Ran(Struct):
     """How many variants there are, how many came to their end, and the first one that did not, with the reason."""
 
     count: int
@@ -200,8 +197,7 @@ class Ran:
     reason: str
 
 
-@dataclass(frozen=True)
-class Judged:
+class Judged(Struct):
     """How many variants have a red and an amber trust report, of how many; the first of the worst and what is said of it."""
 
     count: int
@@ -248,8 +244,7 @@ def say_verdicts(found: Judged) -> Item:
     return Item("verdicts", "red" if found.red else "amber", text, row=found.worst)
 
 
-@dataclass(frozen=True)
-class Held:
+class Held(Struct):
     """Names of the references, their own errors as shares of the size, or radians, and why each may miss something; empty where nothing
     says so."""
 

@@ -16,7 +16,7 @@ import numpy as np
 
 import nivel
 from nivel.analysis.progress.log import Listener
-from nivel.analysis.sweep import lane_runs
+from nivel.analysis.sweep import variant_runs
 from nivel.analysis.sweep.patched import PatchedRuns, learn
 from nivel.native.processor import lane_count
 
@@ -29,7 +29,7 @@ def main() -> None:
     settings = {"integrator": args.integrator, "step": args.step, "duration": args.duration}
     machine, values = nivel.load(args.machine).with_settings(settings), np.linspace(args.low, args.high, args.variants)
     runs = PatchedRuns(learn(machine, [{args.path: value} for value in values[[0, -1]]]))
-    lane_runs.LaneRuns(runs, np.inf, Listener())
+    variant_runs.LaneRuns(runs, np.inf, Listener())
     found: dict[str, list[tuple[float, float, float]]] = {"in lanes": [], "singly": []}
     for _ in range(args.rounds):
         for way, rows in found.items():
@@ -48,7 +48,7 @@ def main() -> None:
 
 def measured(machine: nivel.Machine, path: str, values: np.ndarray, *, singly: bool) -> tuple[float, float, float]:
     """Processor time [s] of the batch and of its loops, and the share in lanes."""
-    with patch.object(lane_runs, "unfit", (lambda _: "asked for") if singly else lane_runs.unfit):
+    with patch.object(variant_runs, "unfit", (lambda _: "asked for") if singly else variant_runs.unfit):
         begin = process_time()
         found = machine.batch({path: values}, threads=1)
         whole = process_time() - begin

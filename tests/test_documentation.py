@@ -33,7 +33,7 @@ from nivel.elements.forces import FORCES
 from nivel.elements.joints import JOINTS
 from nivel.errors import ModelError
 from nivel.files import parse_machine
-from nivel.files.body_files import KEY as MASS_PROPERTIES
+from nivel.files.include import KEY as MASS_PROPERTIES
 from nivel.files.joint_parts import DESCRIBED as PARTS_OF_JOINTS
 from nivel.files.outline import FILE_WORDS, SETS, TOP_WORDS
 from nivel.files.writer import write_machine

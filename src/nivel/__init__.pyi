@@ -42,7 +42,7 @@ from nivel.elements.joints.joint import Joint as Joint
 from nivel.errors import ModelError as ModelError
 from nivel.errors import NivelError as NivelError
 from nivel.errors import SolveError as SolveError
-from nivel.live.opening import export_page as export_page
+from nivel.live.page import export_page as export_page
 from nivel.machine.bodies.body import Body as Body
 from nivel.machine.control.block import Block as Block
 from nivel.machine.core.marker import Marker as Marker

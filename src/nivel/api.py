@@ -628,7 +628,7 @@ class Machine(Model):
         chosen_duration = settings.get("duration") is not None
         words = nivel.machine.settings.analyses.StaticsSettings
         asked = nivel.machine.settings.values.settings_of(words, "statics", own | _given(settings))
-        neutral, chosen = nivel.analysis.statics.free_coordinates.for_statics(self.record, asked)
+        neutral, chosen = nivel.analysis.statics.start.for_statics(self.record, asked)
         with retold(self.origin.placed):
             methods = nivel.analysis.plan.plan.methods_of(neutral, "newton-euler", chosen)
         self._refuse_target(out, force)

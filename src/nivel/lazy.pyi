@@ -74,7 +74,6 @@ import nivel.analysis.run.prepared_state
 import nivel.analysis.run.simulate
 import nivel.analysis.run.stepping
 import nivel.analysis.statics
-import nivel.analysis.statics.free_coordinates
 import nivel.analysis.statics.run
 import nivel.analysis.statics.start
 import nivel.analysis.sweep
@@ -90,7 +89,6 @@ import nivel.c_library
 import nivel.c_library.exported
 import nivel.c_library.writer
 import nivel.cli
-import nivel.cli.live
 import nivel.cli.progress
 import nivel.elements
 import nivel.elements.beams
@@ -176,7 +174,7 @@ import nivel.live
 import nivel.live.budget
 import nivel.live.datagrams
 import nivel.live.journal
-import nivel.live.opening
+import nivel.live.page
 import nivel.live.recording
 import nivel.live.replay
 import nivel.live.source
@@ -206,10 +204,9 @@ import nivel.native.shipped
 import nivel.native.store
 import nivel.native.workers
 import nivel.report
-import nivel.report.handling_page
-import nivel.report.kc_page
 import nivel.report.reduction_page
 import nivel.report.study_page
+import nivel.report.vehicle_pages
 import nivel.results
 import nivel.results.analyses
 import nivel.results.analyses.linear_model

@@ -12,7 +12,7 @@ from nivel.extras import LIBRARIES, is_installed, require
 from nivel.flexible.model import solid_source
 from nivel.native import library, workers
 from nivel.results import Result
-from nivel.view import browser, capture
+from nivel.view import capture
 
 NEEDING = [
     (["demo"], "websockets", "the page needs websockets: pip install websockets"),
@@ -46,7 +46,7 @@ def test_a_missing_part_is_told_first(words, missing, message, tmp_path, monkeyp
     (tmp_path / "solid.yaml").write_text(SOLID)
     monkeypatch.setitem(sys.modules, missing, None)
     monkeypatch.setattr(capture.shutil, "which", lambda _name: None)
-    monkeypatch.setattr(browser, "find_browser", lambda: "chromium")
+    monkeypatch.setattr(capture, "find_browser", lambda: "chromium")
     monkeypatch.setattr(nivel.api, "load", refused)
     monkeypatch.setattr(Result, "open", refused)
     monkeypatch.setattr(solid_source, "meshed", refused)
@@ -66,9 +66,9 @@ def test_all_missing_libraries_are_told_at_once(monkeypatch):
 
 
 def test_the_page_of_a_film_needs_a_browser_before_its_result_is_read(tmp_path, monkeypatch):
-    monkeypatch.setattr(browser, "PLACES", ())
+    monkeypatch.setattr(capture, "PLACES", ())
     monkeypatch.setattr(capture.shutil, "which", lambda _name: None)
-    monkeypatch.setattr(browser, "find_browser", lambda: None)
+    monkeypatch.setattr(capture, "find_browser", lambda: None)
     monkeypatch.setattr(Result, "open", refused)
     done = CliRunner().invoke(main, ["view", "x.nc", "--still", str(tmp_path / "a.png")])
     assert done.exit_code == 2

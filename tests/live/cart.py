@@ -8,7 +8,7 @@ from tempfile import TemporaryDirectory
 from nivel.api import Machine
 from nivel.files.reader import parse_machine
 from nivel.integrate.loop.paced import DONE
-from nivel.live.opening import session_of
+from nivel.live.page import session_of
 from patience import PATIENCE
 
 MASS, FORCE, DAMPING = 2.0, 20.0, 3.0

@@ -12,7 +12,7 @@ from nivel.api import Machine
 from nivel.cli import live as command
 from nivel.files.reader import parse_machine
 from nivel.live.light import Counts, Judge
-from nivel.live.opening import session_of
+from nivel.live.page import session_of
 from nivel.live.recording import Recording
 from nivel.live.replay import replay
 from nivel.live.timing import Timing

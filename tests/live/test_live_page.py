@@ -11,7 +11,7 @@ import nivel
 from browsing import served, until, watched
 from nivel.demos import demo_file
 from nivel.integrate.loop.paced import DONE
-from nivel.live.opening import session_of
+from nivel.live.page import session_of
 from nivel.live.picture import gauges
 from nivel.live.recording import Recording
 from nivel.live.replay import replay

@@ -15,11 +15,11 @@ from cart import DAMPING, FORCE, MASS, machine, operate, running, until
 from nivel import PythonLaw
 from nivel.api import Machine
 from nivel.cli.live import introduction
-from nivel.cli.replay import command
+from nivel.cli.live import replay as replay_command
 from nivel.errors import ModelError, SolveError
 from nivel.files.reader import parse_machine
 from nivel.integrate.loop.paced import DONE, MODE, NEXT, SAVED, STRETCHED
-from nivel.live.opening import session_of
+from nivel.live.page import session_of
 from nivel.live.preparation import grip, live_plan, pace_of
 from nivel.live.recorder import Recorder
 from nivel.live.recording import Recording, Take, about_run, read_recording
@@ -211,7 +211,7 @@ def test_a_recording_that_holds_code_is_replayed_only_where_that_is_allowed(tmp_
     for forces, has_code in (((drive.replace(effort=law), *others), True), (record.forces, False)):
         write_recording(path, record.replace(forces=forces), pace_of(1e-3, None), [])
         assert read_recording(path).has_code == has_code
-        refusal = str(CliRunner().invoke(command, [str(path)]).exception)
+        refusal = str(CliRunner().invoke(replay_command, [str(path)]).exception)
         assert ("--allow-code" in refusal) == has_code
 
 

@@ -7,8 +7,8 @@ import pytest
 
 import nivel
 from nivel.analysis.progress.log import Listener
-from nivel.analysis.sweep.lane_runs import WORTH_COMPILING, LaneRuns
 from nivel.analysis.sweep.patched import PatchedRuns, UnsuitedError, learn, read_values
+from nivel.analysis.sweep.variant_runs import WORTH_COMPILING, LaneRuns
 from nivel.analysis.sweep.variants import rows_of
 from nivel.files import parse_machine
 from nivel.native.processor import lane_count
@@ -135,6 +135,6 @@ def test_what_cannot_go_in_lanes_says_why(given, why):
 def test_few_and_short_runs_are_not_worth_compiling(monkeypatch):
     machine = nivel.Machine.from_record(parse_machine(CART))
     runs = PatchedRuns(learn(machine, rows_of({"bodies.cart.mass": [1.0, 2.0]})))
-    monkeypatch.setattr("nivel.analysis.sweep.lane_runs.missing", list)
+    monkeypatch.setattr("nivel.analysis.sweep.variant_runs.missing", list)
     with pytest.raises(UnsuitedError, match="worth compiling"):
         LaneRuns(runs, 0.5 * WORTH_COMPILING, Listener())

@@ -6,7 +6,7 @@ import re
 import numpy as np
 
 from nivel.integrate.loop.sink import Header
-from nivel.report.beam_shapes import SHAPES, beam_nodes, beam_shapes, stations
+from nivel.report.deflections import SHAPES, beam_nodes, beam_shapes, stations
 from nivel.report.panels import panels
 from nivel.report.story import facts
 from nivel.results import Memory

@@ -17,7 +17,7 @@ from needing import needs
 from nivel.cli import main
 from nivel.errors import ModelError
 from nivel.results import Store
-from nivel.view import browser, capture
+from nivel.view import capture
 from nivel.view.capture import Look, film, still
 from nivel.view.sources import Playback
 from patience import PATIENCE
@@ -110,7 +110,7 @@ def test_what_is_missing_is_said(stored, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     with pytest.raises(ModelError, match=r"needs ffmpeg.*nivel\[film\].*--export scene.html"):
         capture._ffmpeg()
-    monkeypatch.setattr(browser, "PLACES", ())
+    monkeypatch.setattr(capture, "PLACES", ())
     monkeypatch.delenv("NIVEL_BROWSER", raising=False)
     with pytest.raises(ModelError, match="none was found: install chromium"):
         still(source(stored), tmp_path / "a.png", SMALL)

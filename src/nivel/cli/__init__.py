@@ -28,26 +28,30 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "new": CommandPlace("nivel.cli.new", "Write a small example machine file with comments."),
     "check": CommandPlace("nivel.cli.check", "Check and assemble a machine, and describe it."),
     "run": CommandPlace("nivel.cli.run", "Simulate a machine: result file, report, summary."),
-    "demo": CommandPlace("nivel.cli.demo", "Operate one of the machines that come with nivel."),
+    "demo": CommandPlace("nivel.cli.live:demo", "Operate one of the machines that come with nivel."),
     "live": CommandPlace("nivel.cli.live", "Operate a machine in real time in the browser."),
-    "replay": CommandPlace("nivel.cli.replay", "Repeat a recorded live run exactly, or with other methods."),
+    "replay": CommandPlace("nivel.cli.live:replay", "Repeat a recorded live run exactly, or with other methods."),
     "budget": CommandPlace("nivel.cli.budget", "Measure the computing time of a step, by method and by part."),
-    "statics": CommandPlace("nivel.cli.statics", "Find the static equilibrium of a machine under its loads."),
-    "kinematics": CommandPlace("nivel.cli.kinematics", "Positions, velocities and reactions of a driven machine."),
-    "inverse": CommandPlace("nivel.cli.inverse", "Efforts of actuators that make a machine follow a motion."),
-    "linearise": CommandPlace("nivel.cli.linearise", "Eigenvalues, modes and the linear model about a state."),
-    "sweep": CommandPlace("nivel.cli.sweep", "Compute many variants of a machine: data file, report, summary."),
-    "optimise": CommandPlace("nivel.cli.search_command:optimise", "Find the best values of a machine's parameters."),
-    "identify": CommandPlace(
-        "nivel.cli.search_command:identify", "Find the values of a machine's parameters from measurements."
+    "statics": CommandPlace("nivel.cli.motions:statics", "Find the static equilibrium of a machine under its loads."),
+    "kinematics": CommandPlace(
+        "nivel.cli.motions:kinematics", "Positions, velocities and reactions of a driven machine."
     ),
-    "handling": CommandPlace("nivel.cli.handling", "Drive a vehicle through standard manoeuvres: numbers, and a page."),
-    "kc": CommandPlace("nivel.cli.kc", "Kinematics and compliance of a suspension on a rig."),
+    "inverse": CommandPlace("nivel.cli.motions:inverse", "Efforts of actuators that make a machine follow a motion."),
+    "linearise": CommandPlace("nivel.cli.linearise", "Eigenvalues, modes and the linear model about a state."),
+    "sweep": CommandPlace("nivel.cli.studies:sweep", "Compute many variants of a machine: data file, report, summary."),
+    "optimise": CommandPlace("nivel.cli.studies:optimise", "Find the best values of a machine's parameters."),
+    "identify": CommandPlace(
+        "nivel.cli.studies:identify", "Find the values of a machine's parameters from measurements."
+    ),
+    "handling": CommandPlace(
+        "nivel.cli.vehicles:handling", "Drive a vehicle through standard manoeuvres: numbers, and a page."
+    ),
+    "kc": CommandPlace("nivel.cli.vehicles:kc", "Kinematics and compliance of a suspension on a rig."),
     "compare": CommandPlace("nivel.cli.compare", "Run many methods and compare their speed and accuracy."),
     "reduce": CommandPlace("nivel.cli.reduce", "Reduce a finite-element model to a flexible body."),
     "view": CommandPlace("nivel.cli.view", "Show a result or move a machine in the browser."),
-    "explain": CommandPlace("nivel.cli.explain", "Show how far a result can be trusted, and why."),
-    "loads": CommandPlace("nivel.cli.loads", "Peak reactions, power and work, and load cycles of signals."),
+    "explain": CommandPlace("nivel.cli.results:explain", "Show how far a result can be trusted, and why."),
+    "loads": CommandPlace("nivel.cli.results:loads", "Peak reactions, power and work, and load cycles of signals."),
     "stress": CommandPlace("nivel.cli.stress", "Find the largest stresses in a flexible body."),
     "export": CommandPlace("nivel.cli.export", "Write a result as a table, or a machine as a C library or FMU."),
     "import": CommandPlace("nivel.cli.import_model", "Translate a model of another program into a machine file."),

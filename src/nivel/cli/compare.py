@@ -8,7 +8,7 @@ import click
 from nivel.cli import options
 from nivel.cli.failures import COMPUTATION_FAILED, INPUT_AT_FAULT
 from nivel.cli.progress import progress_listener
-from nivel.cli.sweep import is_complete, say_how_to_go_on
+from nivel.cli.studies import is_complete, say_how_to_go_on
 from nivel.errors import Fault, ModelError
 from nivel.known import Comparison
 from nivel.lazy import nivel, rich

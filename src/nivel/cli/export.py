@@ -150,7 +150,7 @@ def _write_fmu(machine: Machine, path: Path, options: dict[str, Any], force: boo
 
 def _write_page(machine: Machine, path: Path, parameters: tuple[str, ...], force: bool) -> None:
     with nivel.cli.progress.progress_listener(False) as listener:
-        written = nivel.live.opening.export_page(machine, path, parameters=parameters, force=force, listener=listener)
+        written = nivel.live.page.export_page(machine, path, parameters=parameters, force=force, listener=listener)
     size = written.path.stat().st_size / 1000
     click.echo(
         f"page: {written.path}, {len(written.inputs)} inputs, {len(written.parameters)} parameters, {size:.0f} kB; any browser opens it",

@@ -53,7 +53,7 @@ def command(order: Order, inputs: dict[str, str], no_verify: bool, operate: bool
 def _operated(machine: Machine, quiet: bool) -> str:
     """The page in which the machine is run again. Raises ModelError where a page cannot carry it."""
     with TemporaryDirectory() as folder, progress_listener(quiet) as listener:
-        return nivel.live.opening.export_page(machine, Path(folder) / "page.html", listener=listener).path.read_text(
+        return nivel.live.page.export_page(machine, Path(folder) / "page.html", listener=listener).path.read_text(
             encoding="utf-8"
         )
 

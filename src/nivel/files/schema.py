@@ -3,7 +3,7 @@
 from copy import deepcopy
 from typing import Any
 
-from nivel.files.body_files import KEY as MASS_PROPERTIES
+from nivel.files.include import KEY as MASS_PROPERTIES
 from nivel.files.include import Include
 from nivel.files.joint_parts import BACKLASH, DESCRIBED, FILLED, MORE, RECORDS, STOPS
 from nivel.files.outline import FORMAT, SETS

@@ -2,9 +2,13 @@
 
 Every part that `assemblies:` names is a file read by itself, with parameters and names of its own. Its records are
 placed and get their prefix (assembly.py), and join those of the file that uses it.
+
+Parameters of a file decide whose size chooses between pieces of an expression, as p of `max(p, 30)` or `if(p > 2, a, b)`: numbers follow
+them by several formulas, of which a few values may show one (`nivel.analysis.preparation.parameters`). What decides while the machine
+runs, as `if(time > p, a, b)`, is none of these.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path as FilePath
 from typing import Any, Final
 
@@ -12,11 +16,9 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from nivel.errors import Fault, ModelError, refuse
-from nivel.files.body_files import place_body_files, read_mass_properties
 from nivel.files.code import read_python_laws, read_unit_blocks
 from nivel.files.csv_tables import read_csv_tables
-from nivel.files.deciding import deciding
-from nivel.files.include import include
+from nivel.files.include import include, place_body_files, read_mass_properties
 from nivel.files.joint_parts import add_joint_parts
 from nivel.files.mesh_file import read_meshes
 from nivel.files.outline import NAMING, SETS, VALUES, Known, as_part, check_sections, check_start, section_of
@@ -30,11 +32,70 @@ from nivel.machine.core.record import Record
 from nivel.machine.laws.named_function import resolve_functions
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.parameters import resolve
+from nivel.machine.units.functions import FUNCTIONS
+from nivel.machine.units.grammar import parse
 from nivel.machine.units.measure import name_notes
 from nivel.machine.units.plain_factors import with_bodies
 from nivel.machine.units.quantity import FunctionFault
-from nivel.machine.units.tree import Number, Parameters, Signal
+from nivel.machine.units.tree import (
+    COMPARISONS,
+    Call,
+    ExpressionError,
+    Node,
+    Number,
+    Operation,
+    Parameters,
+    Signal,
+    names,
+    parts,
+    varies,
+)
 from nivel.machine.uses.references import SECTIONS
+
+
+def deciding(tree: Tree) -> frozenset[str]:
+    """Names of parameters that decide in the expressions of a file, or may do so in the parts that it gives them to."""
+    given = section_of(tree, "parameters")
+    found = {name for node in _trees(tree.data) for name in _decided(node)}
+    found |= {name for node in _trees(section_of(tree, "assemblies")) for name in names(node)}
+    while (
+        more := {name for each in found & given.keys() for node in _trees(given[each]) for name in names(node)} - found
+    ):
+        found |= more
+    return frozenset(found & given.keys())
+
+
+def _trees(data: Any) -> Iterator[Node]:
+    """Of all texts that are expressions."""
+    if isinstance(data, dict | list):
+        for each in data.values() if isinstance(data, dict) else data:
+            yield from _trees(each)
+    elif isinstance(data, str):
+        try:
+            yield parse(data)
+        except ExpressionError:
+            return
+
+
+def _decided(node: Node) -> Iterator[str]:
+    """Names in the parts of an expression that decide before the machine runs. Functions of the file, and curves, decide by all that they
+    are given."""
+    for part in parts(node):
+        yield from _decided(part)
+    match node:
+        case Operation(symbol) if symbol in COMPARISONS and not varies(node):
+            yield from names(node)
+        case Call(function, arguments):
+            kind = FUNCTIONS.get(function)
+            if kind is None:
+                for part in arguments:
+                    yield from () if varies(part) else names(part)
+            elif kind.sides is not None:
+                for pair in kind.sides(lambda *each: not any(map(varies, each)), *arguments):
+                    yield from (name for each in pair if each is not None for name in names(each))
+            elif kind.jumps and not any(map(varies, arguments)):
+                yield from names(node)
+
 
 MOST_ROUNDS: Final = 5  # of functions that call for other units in the expressions that use them
 Elements = dict[str, dict[str, Record]]
@@ -42,7 +103,7 @@ Elements = dict[str, dict[str, Record]]
 
 class FileNames(Struct):
     """What a machine file names beside the elements: values of its parameters, and its assemblies with all their values. deciding : the
-    parameters of `nivel.files.deciding`."""
+    parameters of `nivel.files.scope`."""
 
     parameters: Mapping[str, float]
     assemblies: Mapping[str, Assembly]

@@ -1,19 +1,25 @@
-"""One HTML file in which a machine lives: its machine code for WebAssembly, its memory, its picture, and the page of `nivel live`."""
+"""From a machine to its session, and one HTML file in which it lives: its machine code for WebAssembly, its memory, its picture, and the
+page of `nivel live`."""
 
 import json
-from collections.abc import Iterator
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Unpack
 
-from nivel.analysis.plan.compilation import run_entries
+from nivel.analysis.gradients.outputs import parameters_of
+from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.preparation.attributes import run_attributes
-from nivel.c_library.exported import FRAMES_KEPT, failures_of, refusal
+from nivel.analysis.progress.log import Listener
+from nivel.api import Machine
+from nivel.c_library.exported import FRAMES_KEPT, Exported, export, failures_of, refusal
 from nivel.c_library.image import WORD, Image, UnknownAddressError
-from nivel.c_library.parameters import Followed, memory_of
-from nivel.errors import refuse
-from nivel.files.target import write_file
+from nivel.c_library.parameters import Followed, follow, memory_of
+from nivel.errors import refuse, retold
+from nivel.files.target import check_target, write_file
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.paced import SHOWN, TICKS, Live, drive
 from nivel.integrate.loop.run import ACCEPTED, STOPPED, TIME
@@ -25,20 +31,26 @@ from nivel.judge.before.refusals import ON_SOIL
 from nivel.kernels.core import status
 from nivel.kernels.core.block import Handle
 from nivel.kernels.output.observe import observe
+from nivel.live.journal import Journal, journal_of
 from nivel.live.picture import Picture
-from nivel.live.preparation import HAND_INPUTS, LiveRun, Pace, prepared_run
+from nivel.live.preparation import HAND_INPUTS, LiveRun, Pace, live_plan, pace_of, prepared_run
+from nivel.live.recording import about_run
+from nivel.live.session import Session
 from nivel.live.shared import Sizes, bytes_of, live_in
-from nivel.native import library, wasm
+from nivel.live.timing import ENTRIES
+from nivel.native import library, wasm, workers
 from nivel.native.entry import Entry
 from nivel.native.workers import CompilationError
 from nivel.results.frames.contents import MemoryContents
 from nivel.results.frames.csv_table import columns
 from nivel.results.result import Result
 from nivel.results.scales import ENERGY_FLOOR, REST, machine_size, reaches, weight
+from nivel.settings import StepSettingsDict
 from nivel.system.layout import FrameLayout
 from nivel.view import local
 from nivel.view.page import page_with_machine
 from nivel.view.records import Parameter
+from nivel.words.arguments import checked_arguments
 
 LARGEST = 1e300
 TAPE_ROWS, FRAME_ROWS = 4, 64  # of the rings: a page reads frames after every turn, and keeps no tape
@@ -237,3 +249,78 @@ def _watched(result: Result, span: dict[str, slice], size: float) -> Iterator[lo
         said = f"Hydraulics: error {{}} of the largest energy of the circuits ({BALANCE})"
         against = [supplied, delivered, lost]
         yield local.Watched(said, terms, factors, True, against, stored, 1e-9, 0.0, BALANCE.green, BALANCE.amber)
+
+
+@contextmanager
+def session_of(
+    machine: Machine,
+    settings: Mapping[str, Any],
+    *,
+    tick: float | None = None,
+    urgent: bool = True,
+    record: Path | None = None,
+    force: bool = False,
+    listener: Listener | None = None,
+) -> Iterator[Session]:
+    """The machine, prepared in the solver's process, paused at its start.
+
+    record : the recording that it is to become; its journal stands beside it until `Recorder.complete` puts the recording in its place.
+    force : an older journal is written over. Raises ModelError where it cannot be.
+    """
+    machine = machine.with_settings(settings)
+    with _planned(machine, settings, tick) as (plan, pace), ExitStack() as undone:
+        journal = None
+        if record is not None:
+            about = about_run(plan.machine, machine.origin.source, settings, pace)
+            journal = Journal(journal_of(record), about, force=force)
+            undone.callback(journal.discard)
+        build([*run_entries(plan), drive, *ENTRIES], listener)
+        workers.COMPILERS.end_all()
+        session = Session(plan, pace, urgent=urgent, journal=journal)
+        undone.pop_all()
+    try:
+        yield session
+    finally:
+        session.close()
+
+
+@checked_arguments
+def export_page(
+    machine: Machine,
+    path: str | os.PathLike[str],
+    *,
+    tick: float | None = None,
+    parameters: Sequence[str] | str = (),
+    force: bool = False,
+    listener: Listener | None = None,
+    **settings: Unpack[StepSettingsDict],
+) -> LivePage:
+    """Write one HTML file in which the machine lives, to be operated as in `nivel live`, without Python, a server or a network.
+
+    tick : time between two readings of the inputs [s], a whole number of steps; by default 1 ms, or a longer step. parameters : numbers of
+    the machine by path, which the page changes by sliders, as of `Machine.export_fmu`. force : replace an existing file. settings : of the
+    run, as in `Machine.start`.
+    Raises ModelError where the integrator chooses its steps, a Python law or foreign code takes part, a parameter cannot be varied, or the
+    file is there already.
+    """
+    target = Path(os.fspath(path))
+    check_target(target, "page", force=force, sources=machine.origin.files)
+    with _planned(machine := machine.with_settings(settings), settings, tick) as (plan, pace):
+        build([*run_entries(plan), drive], listener)
+        if not parameters:
+            return write_live_page(plan, pace, target)
+        given = parameters_of(machine, [parameters] if isinstance(parameters, str) else parameters, "a page")
+        same = {**settings, "integrator": plan.settings.integrator}
+
+        def varied(changes: Mapping[str, float]) -> Exported:
+            return export(live_plan(machine.with_values(changes).record, same, tick)[0], "a page")
+
+        return write_live_page(plan, pace, target, follow(given, export(plan, "a page"), varied))
+
+
+@contextmanager
+def _planned(machine: Machine, settings: Mapping[str, Any], tick: float | None) -> Iterator[tuple[Plan, Pace]]:
+    """The live run of a machine, whose faults are placed in its file."""
+    pace_of(machine.record.simulation.step, tick)  # a tick that is not right is no fault of the file
+    with retold(machine.origin.placed):
+        yield live_plan(machine.record, settings, tick)

@@ -7,7 +7,7 @@ import numpy as np
 from nivel.judge.after.checks import joints
 from nivel.known import Result
 from nivel.lazy import Struct
-from nivel.report.beam_shapes import beam_nodes, stations
+from nivel.report.deflections import beam_nodes, stations
 from nivel.report.element_panels import control, couplings, drivers, forces, sensors
 from nivel.report.panel import GROUPS, MOST, TOGETHER, Array, Curve, Group, Panel, components, left_out
 from nivel.results.scales import blocks, bodies, rotated

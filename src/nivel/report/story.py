@@ -8,7 +8,7 @@ from typing import Any
 from nivel.judge.after.report import titles
 from nivel.known import Result
 from nivel.lazy import Struct
-from nivel.report.beam_shapes import beam_nodes
+from nivel.report.deflections import beam_nodes
 from nivel.results.frames.summary import in_words
 from nivel.results.trust import NOT_VERIFIED, Trust, Verdict
 from nivel.words.wording import counted, set_in_motion

@@ -18,9 +18,8 @@ from nivel.lazy import Struct, asdict, nivel
 from nivel.looks.diagram import block_diagram
 from nivel.looks.poses import upwards
 from nivel.machine.machine_record import MachineRecord
-from nivel.report.beam_shapes import beam_shapes
+from nivel.report.deflections import beam_shapes, load_paths, vibration_table
 from nivel.report.element_panels import power_picture
-from nivel.report.load_path import load_paths, vibration_table
 from nivel.report.page import page, text_of
 from nivel.report.panel import Group, Panel, Thinning
 from nivel.report.panels import panels, peak_reactions

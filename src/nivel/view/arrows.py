@@ -14,7 +14,7 @@ import numpy as np
 from nivel.lazy import Struct
 from nivel.looks.poses import rotation
 from nivel.machine.core.vectors import Array
-from nivel.view.coordinate_places import coordinate_place
+from nivel.view.acting import coordinate_place
 from nivel.view.records import Arrow, Force, Joint, Triple
 from nivel.view.stage import Cast
 

@@ -12,7 +12,7 @@ from nivel.elements.joints.couplings import FunctionCoupling
 from nivel.looks.poses import rotation
 from nivel.machine.core.vectors import Array
 from nivel.machine.uses.coordinate_reference import Kind as CoordinateKind
-from nivel.view.coordinate_places import CoordinatePlace, coordinate_place, triple
+from nivel.view.acting import CoordinatePlace, coordinate_place, triple
 from nivel.view.records import Coupling, End, Track, Wheel
 from nivel.view.stage import Cast
 

@@ -10,7 +10,7 @@ from nivel.looks.solids import attached, held_points, reach_of, shapes_of
 from nivel.looks.viewpoint import choose_view, is_planar
 from nivel.machine.bodies.surface import surface_arrays
 from nivel.machine.core.vectors import Array
-from nivel.view.coordinate_places import triple
+from nivel.view.acting import triple
 from nivel.view.records import Triple, Viewpoint
 from nivel.view.stage import Cast
 

@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.errors import ModelError
-from nivel.lazy import dataclass, nivel, replace
+from nivel.lazy import Struct, nivel, replace
 from nivel.looks.diagram import block_diagram
 from nivel.machine.core.vectors import Array
 from nivel.results.result import Result

@@ -9,7 +9,7 @@ little-endian 32-bit number that says what follows: see PACKAGE, FRAME and COLUM
 
 from typing import Final, Literal
 
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 from nivel.looks.diagram import DiagramBox
 
 Triple = tuple[float, float, float]

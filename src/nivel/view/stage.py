@@ -14,8 +14,7 @@ from nivel.looks.poses import slides_on_beam, stands_at_second
 from nivel.looks.solids import colour_of, colour_of_body, held_points, link_ends, shapes_of
 from nivel.machine.bodies.surface import surface_arrays
 from nivel.machine.core.vectors import Array
-from nivel.view.acting import Acted
-from nivel.view.coordinate_places import triple
+from nivel.view.acting import Acted, triple
 from nivel.view.package import Block, Kind
 from nivel.view.records import Body, Flexible, Force, Joint, Load, Marker, Part, Sweep, Terrain
 

@@ -9,9 +9,9 @@ import pytest
 from click.testing import CliRunner
 
 from nivel.cli import main
-from nivel.cli.handling import drive
+from nivel.cli.vehicles import drive
 from nivel.errors import ModelError
-from nivel.report.handling_page import Manoeuvre, braking_numbers, lane_numbers, slope_numbers, step_numbers
+from nivel.report.vehicle_pages import Manoeuvre, braking_numbers, lane_numbers, slope_numbers, step_numbers
 from simulating import machine
 from test_tyres import ACROSS, TYRE, C, P, R, W, curve
 

@@ -13,9 +13,9 @@ from scipy.spatial.transform import Rotation
 
 import nivel
 from nivel.cli import main
-from nivel.cli.kc import measured, on_rig
+from nivel.cli.vehicles import measured, on_rig
 from nivel.errors import ModelError
-from nivel.report.kc_page import ENDS, MIDDLE, numbers_of, roll_centre
+from nivel.report.vehicle_pages import ENDS, MIDDLE, numbers_of, roll_centre
 from simulating import machine
 
 RADIUS, TRAVEL, K = 0.31, 0.05, 3e4

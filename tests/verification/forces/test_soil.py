@@ -12,7 +12,7 @@ from nivel.elements.contacts.soil import Soil, SoilRow, SoilUnit
 from nivel.elements.contacts.soil_cells import failure_angle, raise_node, slide, wedge
 from nivel.errors import ModelError
 from nivel.kernels.elements.soil import ADDED, COUNT
-from nivel.live.opening import export_page
+from nivel.live.page import export_page
 from nivel.live.preparation import live_plan, prepared_run
 from nivel.live.shared import arrays_in, put_back, taken
 from simulating import G, machine, simulate

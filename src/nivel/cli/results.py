@@ -1,4 +1,4 @@
-"""`nivel loads RESULT`: peak and RMS reactions, power and work of actuators, rainflow cycles of signals."""
+"""Facts of a result: `nivel explain`, how far it can be trusted; `nivel loads`, peaks, power and work, rainflow cycles of signals."""
 
 from __future__ import annotations
 
@@ -8,9 +8,51 @@ from typing import Any
 import click
 
 from nivel.cli.options import file_argument, json_option, listed
+from nivel.cli.progress import COLOURS
 from nivel.errors import Fault, ModelError
 from nivel.known import Result
 from nivel.lazy import nivel, rich, xarray
+
+SIGNS = {"green": "✓", "amber": "!", "red": "✕"}
+
+
+@click.command()
+@file_argument("result")
+@json_option
+def explain(result: str, as_json: bool) -> None:
+    """Print the trust report of RESULT: every number, its threshold, and the reason for the threshold.
+
+    The run of RESULT may still be going on, or may have been killed.
+    """
+    opened = nivel.results.Result.open(result)
+    if as_json:
+        click.echo(opened.trust.to_json())
+    else:
+        _print_trust(opened)
+
+
+def _print_trust(result: Result) -> None:
+    console, text = rich.console.Console(highlight=False), rich.text.Text
+    trust, time = result.trust, result.time
+    frames = f"{len(time)} frame{'s' * (len(time) != 1)}"
+    extent = f"{time[0]:.6g} to {time[-1]:.6g} s, {frames}" if len(time) > 1 else frames
+    console.print(text.assemble((result.name, "bold"), f": {extent}"))
+    light = (trust.light, f"bold {COLOURS[trust.light]}") if trust.light in COLOURS else ""
+    console.print(text.assemble("trust: ", light, f"{', ' if light else ''}{trust.headline}", "\n"))
+    lines = rich.table.Table.grid(padding=(0, 1))
+    for item in trust.items:
+        lines.add_row(text(f"{SIGNS[item.verdict]} {item.verdict}", COLOURS[item.verdict]), text(item.text))
+    console.print(lines)
+    if result.advice:
+        console.print(text(f"\n{result.advice}"))
+    reasons = rich.table.Table.grid(padding=(0, 2))
+    for name, threshold in nivel.judge.after.report.thresholds_of(result).items():
+        reasons.add_row(text(f"{name.replace('_', ' ')}\n{threshold}", "dim"), text(threshold.reason, "dim"))
+    for name, rule in nivel.results.scales.RULES.items():
+        reasons.add_row(text(name.replace("_", " "), "dim"), text(f"{rule[:1].upper()}{rule[1:]}.", "dim"))
+    reasons.columns[0].max_width = 24
+    console.print(text("\nwhy these thresholds", "dim bold"))
+    console.print(reasons)
 
 
 @click.command()
@@ -23,7 +65,7 @@ from nivel.lazy import nivel, rich, xarray
     help="Period of the machine, e.g. '0.5 s': also print the work in the last whole period.",
 )
 @json_option
-def command(result: str, signals: tuple[str, ...] | None, repeating: bool, period: str | None, as_json: bool) -> None:
+def loads(result: str, signals: tuple[str, ...] | None, repeating: bool, period: str | None, as_json: bool) -> None:
     """Print the loads of RESULT: peak and RMS reactions of every joint, and power and work of drivers and forces.
 
     With --cycles, also count the rainflow cycles of signals (ASTM E1049).

@@ -344,6 +344,8 @@ def test_control_and_drives(integrator):
     elastic = {"rotor_inertia": 1e-3, "gear_stiffness": 100, "gear_damping": 0.1}
     motor = {"coordinate": "axle", "torque_constant": 0.1, "resistance": 1, "friction_torque": 0.1}
     curve = {"speeds": [0, 1, 10], "torques": [1, 1, 0]}
+    rotor = {"coordinate": "axle", "resistance": 1, "rotor_resistance": 1, "inductance": 0.1}
+    rotor |= {"stator_leakage": 0.01, "rotor_leakage": 0.01}
     sections = {
         "bodies": {"wheel": solid(angular_velocity=[0, 0, 3]), "driven": solid(position=[0, 1, 0])},
         "joints": {"axle": hinge("ground", "wheel"), "turn": hinge("ground", "driven", point=(0, 1, 0))},
@@ -373,6 +375,15 @@ def test_control_and_drives(integrator):
                 "inductance": 1e-2,
                 **motor,
                 "battery": {"charges": [0, 1], "voltages": [9, 12], "capacity": 100, "resistance": 0.1},
+            },
+            "grid": {"type": "induction-motor", "voltage": 10, "frequency": 5, **rotor},
+            "flux": {
+                "type": "induction-motor",
+                "effort": 1,
+                "current_limit": 5,
+                "current_d": 1,
+                "dc_voltage": 9,
+                **rotor,
             },
         },
     }

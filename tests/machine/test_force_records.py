@@ -38,7 +38,7 @@ STEEL = {"youngs_modulus": "210 GPa", "poisson_ratio": 0.3}
 
 def test_every_force_has_a_type_of_its_own_and_outputs():
     types = [force.model_fields["type"].default for force in FORCES.records]
-    assert len(set(types)) == len(types) == 31
+    assert len(set(types)) == len(types) == 32
     assert all({"magnitude", "power"} <= set(force.outputs) for force in FORCES.records)
 
 

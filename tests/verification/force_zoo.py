@@ -44,6 +44,12 @@ MOTOR = {
     "inductance": 0.02, "inductance_d": 0.01, "current_limit": 2, "current_d": -0.5, "bandwidth": 0.5, "dc_voltage": 100,
     "inverter_drop": 0.5, "friction_torque": 0.1,
 }  # fmt: skip
+# slower windings too; the flux grows from almost nothing
+INDUCTION = {
+    "type": "induction-motor", "coordinate": "axle.angle", "resistance": 0.1, "rotor_resistance": 0.1, "inductance": 0.2,
+    "stator_leakage": 0.05, "rotor_leakage": 0.05,
+}  # fmt: skip
+INVERTER = {"effort": "2*sin(3*time)", "current_limit": 2, "current_d": 0.5, "bandwidth": 0.1, "dc_voltage": 100}
 
 
 @dataclass(frozen=True)
@@ -176,6 +182,8 @@ CASES = {
     "motor, effort": Case({"type": "motor", "coordinate": "j.angle", "effort": "-0.4*j.angle_rate - 3*axle.angle*j.angle"}),
     "synchronous motor": Case(MOTOR),
     "synchronous motor, at its voltage": Case({**MOTOR, "dc_voltage": 1}),
+    "induction motor": Case({**INDUCTION, **INVERTER}),
+    "induction motor, at a grid": Case({**INDUCTION, "voltage": 1, "frequency": 0.5}),
     "servo": Case({"type": "servo", "coordinate": "j.displacement", "target": "0.2*sin(2*time)", "stiffness": 40, "damping": 3}),
     "servo, integral": Case({"type": "servo", "coordinate": "axle", "target": 0.3, "stiffness": 4, "damping": 0.3, "integral": 6}),
     "servo, limited": Case({"type": "servo", "coordinate": "axle", "target": 90, "stiffness": 4, "damping": 0.3, "limit": 0.2}),

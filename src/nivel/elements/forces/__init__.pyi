@@ -42,8 +42,9 @@ from nivel.elements.forces.springs import JointSpringDamper as JointSpringDamper
 from nivel.elements.forces.springs import SpringDamper as SpringDamper
 from nivel.elements.forces.springs import ThreeAxisSpring as ThreeAxisSpring
 from nivel.elements.forces.springs import TorsionalSpringDamper as TorsionalSpringDamper
-from nivel.elements.forces.synchronous_motors import SynchronousMotor as SynchronousMotor
 from nivel.elements.forces.terramechanics import Blade as Blade
 from nivel.elements.forces.terramechanics import SoilWheel as SoilWheel
 from nivel.elements.forces.terramechanics import Track as Track
+from nivel.elements.forces.three_phase_motors import InductionMotor as InductionMotor
+from nivel.elements.forces.three_phase_motors import SynchronousMotor as SynchronousMotor
 from nivel.elements.forces.tyre import Tyre as Tyre

@@ -52,13 +52,7 @@ def saddle_tables(
 
 
 def solver_tables(
-    row: Index,
-    block: Index,
-    count: int,
-    groups: Sequence[Sequence[int]],
-    width: int,
-    factors: int,
-    unknowns: int,
+    row: Index, block: Index, count: int, groups: Sequence[Sequence[int]], width: int, factors: int, unknowns: int
 ) -> Saddle:
     """Pattern and work arrays for these rows of the constraints, and blocks of which the first `count` are theirs.
 

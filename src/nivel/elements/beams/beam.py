@@ -248,10 +248,7 @@ class Beam(Checked):
         """A cable is straight, and the same in all directions."""
         if self.via is not None or self.through or self.twist:
             name = "via" if self.via is not None else "through" if self.through else "twist"
-            yield Problem(
-                (name,),
-                f"an `ancf-cable` is straight and not twisted while unstressed: {OTHERS}",
-            )
+            yield Problem((name,), f"an `ancf-cable` is straight and not twisted while unstressed: {OTHERS}")
         for name in ("centroid", "shear_centre"):
             if any(getattr(self, name)):
                 yield Problem(

@@ -194,37 +194,30 @@ CREEP_SHARE = 1e-3  # share of the rated flow by which a piston that sticks move
 def add_inlet(builder: SystemBuilder, component: Accumulator) -> None:
     """The inlet of an accumulator."""
     conductance = component.flow / math.sqrt(component.pressure_drop)
-    ends = component.ports["A"], component.name
     if component.piston_friction:
-        name = f"hydraulics.{component.name}.flow"
-        first = builder.outputs.add((name, "m^3/s", f"flow of {component.name}"))
-        columns = [first, builder.node(ends[0]), builder.node(ends[1])]
+        first = builder.outputs.add((f"hydraulics.{component.name}.flow", "m^3/s", f"flow of {component.name}"))
+        columns = [first, builder.node(component.ports["A"]), builder.node(component.name)]
         friction = component.piston_friction
         builder.elements.add(rub, columns, [conductance, TRANSITION, friction, CREEP_SHARE * component.flow / friction])
     else:
-        add_flow(builder, component.name, "flow", ends, [conductance, TRANSITION, 0.0])
+        add_flow(builder, component, "flow", ("A", ""), [conductance, TRANSITION, 0.0])
     if component.thermal_time is not None:
         _add_gas(builder, component, component.thermal_time)
 
 
 def _add_gas(builder: SystemBuilder, component: Accumulator, time: float) -> None:
     """The temperature of the gas of an accumulator."""
-    real = component.gas == "nitrogen"
+    name, real = component.name, component.gas == "nitrogen"
     if real:
-        words = f"temperature of the gas in {component.name} on its adiabat at the density of its precharge"
-        theta = builder.circuit.nodes[component.name].room[THETA]
-        state = builder.own_state(
-            StateFact(f"{component.name}.gas_temperature", "K", words, theta, component.temperature)
-        )
+        words = f"temperature of the gas in {name} on its adiabat at the density of its precharge"
+        theta = builder.circuit.nodes[name].room[THETA]
+        fact = StateFact(f"{name}.gas_temperature", "K", words, theta, component.temperature)
     else:
-        words = f"P of the gas in {component.name}, as of a precharge"
-        state = builder.own_state(
-            StateFact(f"{component.name}.charge", "Pa", words, first_charge(component), component.precharge)
-        )
-    first = builder.outputs.add(
-        (f"hydraulics.{component.name}.temperature", "K", f"temperature of the gas in {component.name}")
-    )
-    columns = [first, builder.node(component.name), state]
+        words = f"P of the gas in {name}, as of a precharge"
+        fact = StateFact(f"{name}.charge", "Pa", words, first_charge(component), component.precharge)
+    state = builder.own_state(fact)
+    first = builder.outputs.add((f"hydraulics.{name}.temperature", "K", f"temperature of the gas in {name}"))
+    columns = [first, builder.node(name), state]
     builder.elements.add(charge_nitrogen if real else charge, columns)
     numbers = [component.precharge, time, component.temperature]
     builder.elements.add(warm_nitrogen if real else exchange_heat, columns, numbers)

@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import BeforeValidator
 
 from nivel.elements.circuits import ranges
-from nivel.elements.circuits.chambers import SINGLE, Actuator, chamber_node, chamber_nodes
+from nivel.elements.circuits.chambers import SINGLE, Actuator, chamber_nodes, chamber_place
 from nivel.elements.circuits.component import Component, Rating
 from nivel.elements.circuits.composed import add_check_between
 from nivel.elements.circuits.kind import ComponentKind
@@ -203,8 +203,8 @@ CHECK, CHECK_OF_GAS = (0.5e5, 3e5), (0.05e5, 0.2e5)
 def add_seal(builder: SystemBuilder, component: HydraulicCylinder | RotaryActuator) -> None:
     """The leak past a piston or vane."""
     if component.seal_leakage:
-        inner = (chamber_node(component, "A"), chamber_node(component, "B"))
-        add_flow(builder, component.name, "seal_flow", inner, [0.0, TRANSITION, component.seal_leakage])
+        inner = (chamber_place(component, "A"), chamber_place(component, "B"))
+        add_flow(builder, component, "seal_flow", inner, [0.0, TRANSITION, component.seal_leakage])
 
 
 def add_cylinder(builder: SystemBuilder, component: HydraulicCylinder) -> None:
@@ -214,14 +214,14 @@ def add_cylinder(builder: SystemBuilder, component: HydraulicCylinder) -> None:
         cushion = getattr(component, f"cushion_{chamber}")
         if cushion is None:
             continue
-        inner, port = chamber_node(component, chamber), f"{component.name}.{chamber}"
+        inner, port = f".chamber_{chamber}", f".{chamber}"
         head = rated(cushion, 0.0)
         end, sign = (0.0, 1.0) if chamber == "A" else (component.stroke, -1.0)
         position, coupled = builder.circuit.signals[f"{component.name}.position"]
         builder.note(coupled)
         numbers = [*head, sign, end, cushion.length, 1.0, cushion.least_opening]
-        add_flow(builder, component.name, f"cushion_flow_{chamber}", (inner, port), numbers, (CUSHION, position))
-        spring = CHECK_OF_GAS if builder.circuit.nodes[inner].gas else CHECK
+        add_flow(builder, component, f"cushion_flow_{chamber}", (inner, port), numbers, (CUSHION, position))
+        spring = CHECK_OF_GAS if builder.circuit.nodes[component.node(inner)].gas else CHECK
         quantity, position = f"check_flow_{chamber}", f"check_{chamber}"
         add_check_between(builder, component, quantity, (port, inner), head, spring, position)
 

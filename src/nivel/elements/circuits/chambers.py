@@ -92,11 +92,16 @@ def chamber_nodes(builder: SystemBuilder, component: Actuator, swept: Swept) -> 
             yield volume_node(builder, component, f"{component.name}.{chamber}", f"_port_{chamber}", room, start, swept)
 
 
+def chamber_place(component: Actuator, chamber: str) -> str:
+    """The port that a chamber is a part of, or that within the actuator which is one."""
+    if getattr(component, f"cushion_{chamber}", None) is not None:
+        return f".chamber_{chamber}"
+    return chamber if chamber in component.ports else f".{chamber}"
+
+
 def chamber_node(component: Actuator, chamber: str) -> str:
     """Name of the node that a chamber is, or is a part of."""
-    if getattr(component, f"cushion_{chamber}", None) is not None:
-        return f"{component.name}.chamber_{chamber}"
-    return component.ports.get(chamber, f"{component.name}.{chamber}")
+    return component.node(chamber_place(component, chamber))
 
 
 def _dead_volumes(component: Actuator) -> dict[str, float]:

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Final, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated
-from nivel.elements.circuits.composed import OF_POPPETS, PASSES, add_check_between, add_opened, sums
+from nivel.elements.circuits.composed import OF_POPPETS, PASSES, add_check_between, add_opened
 from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
@@ -104,36 +104,30 @@ class QuickExhaust(Rated):
 
 def add_check(builder: SystemBuilder, component: CheckValve) -> None:
     """p_A - p_B, and of a pilot its ratio times what it is above the air, against the spring."""
-    ports, ratio = component.ports, component.pilot_ratio or 0.0
-    factors = {ports["A"]: 1.0, ports["B"]: -1.0}
-    if "X" in ports:
-        factors[ports["X"]] = factors.get(ports["X"], 0.0) + ratio
-    ends, constant = (ports["A"], ports["B"]), -ratio * ATMOSPHERE
-    add_opened(builder, component, "flow", ends, factors, component.opens_at, constant=constant)
+    ratio = component.pilot_ratio or 0.0
+    factors = {"A": 1.0, "B": -1.0} | ({"X": ratio} if "X" in component.ports else {})
+    add_opened(builder, component, "flow", ("A", "B"), factors, component.opens_at, constant=-ratio * ATMOSPHERE)
 
 
 def add_shuttle(builder: SystemBuilder, component: ShuttleValve) -> None:
     """Two seats: the one on the side of the higher pressure is open."""
-    ports, half = component.ports, 0.5 * component.opening_range
+    half = 0.5 * component.opening_range
     for side, other, position in (("A", "B", "position"), ("B", "A", "position_B")):
-        factors, ends = sums((ports[side], 1.0), (ports[other], -1.0)), (ports[side], ports["C"])
-        add_opened(builder, component, f"flow_{side}", ends, factors, constant=half, position=position)
+        factors = {side: 1.0, other: -1.0}
+        add_opened(builder, component, f"flow_{side}", (side, "C"), factors, constant=half, position=position)
 
 
 def add_flushing(builder: SystemBuilder, component: FlushingValve) -> None:
     """A spool between both sides, centred by springs: the higher pressure joins the other side with C."""
-    ports = component.ports
     for side, other in (("A", "B"), ("B", "A")):
-        factors, ends = {ports[other]: 1.0, ports[side]: -1.0}, (ports[side], ports["C"])
-        add_opened(builder, component, f"flow_{side}", ends, factors, component.opens_at)
+        add_opened(builder, component, f"flow_{side}", (side, "C"), {other: 1.0, side: -1.0}, component.opens_at)
 
 
 def add_quick_exhaust(builder: SystemBuilder, component: QuickExhaust) -> None:
     """p_P - p_A against the spring, and the other way round."""
-    p, a, opens_at = component.ports["P"], component.ports["A"], component.opens_at
-    add_opened(builder, component, "flow_PA", (p, a), {p: 1.0, a: -1.0}, opens_at, position="position")
-    ends = a, component.ports["R"]
-    add_opened(builder, component, "flow_AR", ends, {a: 1.0, p: -1.0}, opens_at, position="exhaust_position")
+    for a, b, to, position in (("P", "A", "A", "position"), ("A", "P", "R", "exhaust_position")):
+        factors = {a: 1.0, b: -1.0}
+        add_opened(builder, component, f"flow_{a}{to}", (a, to), factors, component.opens_at, position=position)
 
 
 CHECK: Final = path("M0 16 V7 M-8 -4 L0 7 L8 -4 M0 -7 V-16") + circle(5.0, -2.0)
@@ -256,39 +250,31 @@ def add_counterbalance(builder: SystemBuilder, component: CounterbalanceValve) -
 
     An orifice in the pilot line fills a chamber, whose pressure is that of the pilot; another one may drain that to V.
     """
-    ports, ratio = component.ports, component.pilot_ratio
-    pilot = ports["X"] if component.pilot_orifice is None else f"{component.name}.Y"
-    factors = {ports["L"]: 1.0}
-    factors[pilot] = factors.get(pilot, 0.0) + ratio
-    constant = -(1.0 + ratio) * ATMOSPHERE
+    ratio, pilot = component.pilot_ratio, "X" if component.pilot_orifice is None else ".Y"
+    factors, constant = {"L": 1.0, pilot: ratio}, -(1.0 + ratio) * ATMOSPHERE
     if not component.vented:
-        behind = ports.get("T", ports["V"])
-        factors[behind], constant = factors.get(behind, 0.0) - (1.0 + ratio), 0.0
+        factors["T" if "T" in component.ports else "V"], constant = -(1.0 + ratio), 0.0
     if component.pilot_orifice is not None:
-        density = builder.circuit.fluids[builder.circuit.nodes[ports["L"]].fluid][4]
+        density = builder.circuit.fluids[builder.circuit.nodes[component.ports["L"]].fluid][4]
 
         def bore(diameter: float) -> list[float]:
             return [BORE_COEFFICIENT * 0.25 * math.pi * diameter**2 * math.sqrt(2.0 / density), TRANSITION, 0.0]
 
-        add_flow(builder, component.name, "pilot_flow", (ports["X"], pilot), bore(component.pilot_orifice))
+        add_flow(builder, component, "pilot_flow", ("X", pilot), bore(component.pilot_orifice))
         if component.drain_orifice is not None:
-            add_flow(builder, component.name, "drain_flow", (pilot, ports["V"]), bore(component.drain_orifice))
-    ends, back = (ports["L"], ports["V"]), (ports["V"], ports["L"])
-    add_opened(builder, component, "flow", ends, factors, component.opens_at, constant=constant)
+            add_flow(builder, component, "drain_flow", (pilot, "V"), bore(component.drain_orifice))
+    add_opened(builder, component, "flow", ("L", "V"), factors, component.opens_at, constant=constant)
     check = [component.check_conductance, TRANSITION, 0.0]
     spring = (component.check_opens_at, component.check_opening_range)
-    add_check_between(builder, component, "check_flow", back, check, spring)
+    add_check_between(builder, component, "check_flow", ("V", "L"), check, spring)
 
 
 def add_brake(builder: SystemBuilder, component: BrakeValve) -> None:
     """For each side a check valve in, and an edge back that the other side opens."""
-    ports = component.ports
-    for side, other in (("A", "B"), ("B", "A")):
-        valve, line = ports[f"V{side}"], ports[side]
-        pilot = {ports[f"V{other}"]: 1.0}
-        ends, setting = (line, valve), component.opens_at
-        add_opened(builder, component, f"flow_{side}", ends, pilot, setting, constant=-ATMOSPHERE)
-        add_check_between(builder, component, f"check_flow_{side}", (valve, line))
+    for side, valve, pilot in (("A", "VA", "VB"), ("B", "VB", "VA")):
+        how = {pilot: 1.0}, component.opens_at
+        add_opened(builder, component, f"flow_{side}", (side, valve), *how, constant=-ATMOSPHERE)
+        add_check_between(builder, component, f"check_flow_{side}", (valve, side))
 
 
 def counterbalance(data: Mapping[str, Any]) -> Symbol:

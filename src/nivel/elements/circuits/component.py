@@ -66,6 +66,10 @@ class Component(Checked):
         type: Any
     ports: Ports = Field("nodes that the ports are connected to", default={})
 
+    def node(self, place: str) -> str:
+        """The node at a port; `.M` is one within the component."""
+        return self.ports.get(place, f"{self.name}{place}")
+
     @property
     def inlets(self) -> tuple[str, ...]:
         """Ports out of which fluid can come into what is connected to them."""

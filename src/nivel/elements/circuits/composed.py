@@ -30,14 +30,6 @@ CHECK_OPENS_AT, CHECK_RANGE = 0.5e5, 3e5  # Pa, of check valves within other val
 OF_POPPETS = (lift, restrict)
 
 
-def sums(*terms: tuple[str, float]) -> dict[str, float]:
-    """Factors of nodes, of which several ports may be one."""
-    out: dict[str, float] = {}
-    for node, factor in terms:
-        out[node] = out.get(node, 0.0) + factor
-    return out
-
-
 def add_opened(
     builder: SystemBuilder,
     component: Any,
@@ -53,10 +45,10 @@ def add_opened(
     lag: float | None = None,
     position: str = "",
 ) -> None:
-    """An edge from one node to another that a poppet opens: S((Σ factor p + sign setting + constant)/span), with a lag.
+    """An edge from one place of a component to another that a poppet opens: S((Σ factor p + sign setting + constant)/span), with a lag.
 
-    factors : of the pressures of nodes. numbers, span, lag : of the component, where they are not given: rated with its leakage, its
-    `opening_range`, its `lag`. quantity, position : outputs, as `flow_TA` and `position_TA`.
+    ends, factors : ports, or `.M`, a node within the component; of the pressures there. numbers, span, lag : of the component, where they
+    are not given: rated with its leakage, its `opening_range`, its `lag`. quantity, position : outputs, as `flow_TA` and `position_TA`.
     """
     width: float = component.opening_range if span is None else span
     delay: float = component.lag if lag is None else lag
@@ -65,11 +57,14 @@ def add_opened(
     output, state = builder.outputs.add((f"hydraulics.{name}.{position}", "1", words)), NONE
     if delay > 0.0:
         state = builder.own_state(StateFact(f"{name}.{position}", "1", f"{position} of {name}", 0.0, 1.0))
-    nodes = [builder.node(node) for node in factors]
+    by_node: dict[str, float] = {}  # several ports may be at one
+    for place, factor in factors.items():
+        by_node[component.node(place)] = by_node.get(component.node(place), 0.0) + factor
+    nodes = [builder.node(node) for node in by_node]
     columns = [output, state, NONE, builder.function(setting), *nodes, *[NONE] * (NODES - len(nodes))]
-    builder.elements.add(lift, columns, [width, delay, sign, constant, *factors.values()])
+    builder.elements.add(lift, columns, [width, delay, sign, constant, *by_node.values()])
     numbers = rated(component, component.leakage) if numbers is None else numbers
-    add_flow(builder, name, quantity, ends, numbers, (DIRECT, output))
+    add_flow(builder, component, quantity, ends, numbers, (DIRECT, output))
 
 
 def add_check_between(
@@ -81,7 +76,7 @@ def add_check_between(
     spring: tuple[float, float] = (CHECK_OPENS_AT, CHECK_RANGE),
     position: str = "",
 ) -> None:
-    """A check valve from one node to another within a component; `quantity` as in `flow_TA`."""
-    factors, numbers = sums((ends[0], 1.0), (ends[1], -1.0)), numbers or rated(component, 0.0)
-    how = {"numbers": numbers, "span": spring[1], "lag": 0.0, "position": position}
+    """A check valve from one place to another of a component; `quantity` as in `flow_TA`."""
+    factors = {ends[0]: 1.0, ends[1]: -1.0}
+    how = {"numbers": numbers or rated(component, 0.0), "span": spring[1], "lag": 0.0, "position": position}
     add_opened(builder, component, quantity, ends, factors, spring[0], **how)

@@ -160,12 +160,11 @@ def cool(machine, index, n, t):
 
 def add_cooler(builder: SystemBuilder, component: Cooler) -> None:
     """The flow through a cooler, and the heat that it takes."""
-    ends = component.ports["A"], component.ports["B"]
-    add_flow(builder, component.name, "flow", ends, rated(component, 0.0))
+    add_flow(builder, component, "flow", ("A", "B"), rated(component, 0.0))
     flow = len(builder.outputs.entries) - 1
     first = builder.outputs.add((f"hydraulics.{component.name}.heat", "W", f"heat that {component.name} takes"))
     functions = [builder.function(component.heat_conductance), builder.function(component.coolant_temperature)]
-    columns = [first, builder.node(ends[0]), builder.node(ends[1]), flow, *functions]
+    columns = [first, *(builder.node(component.ports[port]) for port in "AB"), flow, *functions]
     builder.elements.add(cool, columns)
 
 

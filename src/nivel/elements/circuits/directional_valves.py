@@ -158,7 +158,7 @@ def add_directional(builder: SystemBuilder, component: DirectionalValve) -> None
         quantity = f"flow_{pair}" if pair not in component.edges else f"centre_flow_{pair}"
         width = max(component.overlap, component.rounding)
         numbers = [*rated(component, 0.0), 0.0, 0.0, width]
-        add_flow(builder, component.name, quantity, _ends(component, pair), numbers, (MIDDLE, position))
+        add_flow(builder, component, quantity, (pair[0], pair[1]), numbers, (MIDDLE, position))
 
 
 def _slope(ways: str, sign: float, overlap: float) -> tuple[float, float]:
@@ -173,11 +173,7 @@ def _add_edge(
 ) -> None:
     full = 1.0 - component.overlap - 0.5 * component.rounding  # ramp of a full stroke
     numbers = [*rated(component, component.leakage), *slope, component.rounding, 1.0 / full]
-    add_flow(builder, component.name, f"flow_{pair}", _ends(component, pair), numbers, (EDGE, position))
-
-
-def _ends(component: DirectionalValve, pair: str) -> tuple[str, str]:
-    return component.ports[pair[0]], component.ports[pair[1]]
+    add_flow(builder, component, f"flow_{pair}", (pair[0], pair[1]), numbers, (EDGE, position))
 
 
 def _add_spool(builder: SystemBuilder, component: DirectionalValve) -> int:

@@ -108,7 +108,7 @@ def add_ejector(builder: SystemBuilder, component: Ejector) -> None:
     """The jet, and what it draws."""
     ports, name = component.ports, component.name
     ratio = JET_RATIO if component.critical_ratio is None else component.critical_ratio
-    add_flow(builder, name, "flow", (ports["P"], ports["R"]), [component.sonic_conductance, ratio, 0.0])
+    add_flow(builder, component, "flow", ("P", "R"), [component.sonic_conductance, ratio, 0.0])
     first = builder.outputs.add((f"hydraulics.{name}.suction_flow", "m^3/s", f"suction flow of {name}"))
     columns = [first, *(builder.node(ports[port]) for port in ("P", "A", "R"))]
     points = [number for pair in zip(component.vacuums, component.suction_flows, strict=True) for number in pair]

@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Final, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated, VaryingPressure, problem_of_share
-from nivel.elements.circuits.composed import INNER_VOLUME, OF_POPPETS, add_check_between, add_opened, sums
+from nivel.elements.circuits.composed import INNER_VOLUME, OF_POPPETS, add_check_between, add_opened
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
 from nivel.elements.circuits.restrictions import GIVEN, add_flow, rated
@@ -104,43 +104,35 @@ class PriorityValve(Rated):
 
 def add_flow_control(builder: SystemBuilder, component: FlowControl) -> None:
     """An orifice, with a compensator before it or a bypass beside it that holds the margin over it."""
-    name, ports = component.name, component.ports
-    p, a = ports["P"], ports["A"]
-    half, margin = 0.5 * component.opening_range, component.margin
-    meter = (GIVEN, builder.function(component.setting))
-    head = rated(component, component.leakage)
-    if "T" in ports:
-        add_flow(builder, name, "flow", (p, a), head, meter)
-        factors, spool = sums((p, 1.0), (a, -1.0)), {"numbers": rated(component, 0.0), "position": "position"}
-        add_opened(builder, component, "bypass_flow", (p, ports["T"]), factors, margin, constant=half, **spool)
+    half, margin, spool = 0.5 * component.opening_range, component.margin, rated(component, 0.0)
+    meter, head = (GIVEN, builder.function(component.setting)), rated(component, component.leakage)
+    how: dict[str, Any] = {"constant": half, "numbers": spool, "position": "position"}
+    if "T" in component.ports:
+        add_flow(builder, component, "flow", ("P", "A"), head, meter)
+        add_opened(builder, component, "bypass_flow", ("P", "T"), {"P": 1.0, "A": -1.0}, margin, **how)
     else:
-        m = f"{name}.M"
-        factors, spool = sums((m, -1.0), (a, 1.0)), {"numbers": rated(component, 0.0), "position": "position"}
-        add_opened(builder, component, "compensator_flow", (p, m), factors, margin, 1.0, half, **spool)
-        add_flow(builder, name, "flow", (m, a), head, meter)
+        add_opened(builder, component, "compensator_flow", ("P", ".M"), {".M": -1.0, "A": 1.0}, margin, 1.0, **how)
+        add_flow(builder, component, "flow", (".M", "A"), head, meter)
     if component.free_return:
-        add_check_between(builder, component, "check_flow", (a, p))
+        add_check_between(builder, component, "check_flow", ("A", "P"))
 
 
 def add_divider(builder: SystemBuilder, component: FlowDivider) -> None:
     """Two orifices, and two edges of one spool behind them that the pressures between move against each other."""
-    name, ports = component.name, component.ports
-    m, n = f"{name}.M", f"{name}.N"
     whole, corner, leak = rated(component, component.leakage)
     way, half = -1.0 if component.combines else 1.0, 0.5 * component.opening_range
-    for side, own, other, share in (("A", m, n, component.share), ("B", n, m, 1.0 - component.share)):
-        numbers = [share * whole, corner, leak]
-        add_flow(builder, name, f"orifice_flow_{side}", (ports["P"], own), numbers)
-        factors, ends = sums((own, way), (other, -way)), (own, ports[side])
-        add_opened(builder, component, f"flow_{side}", ends, factors, constant=half, numbers=numbers)
+    for side, own, other, share in (("A", ".M", ".N", component.share), ("B", ".N", ".M", 1.0 - component.share)):
+        numbers, factors = [share * whole, corner, leak], {own: way, other: -way}
+        add_flow(builder, component, f"orifice_flow_{side}", ("P", own), numbers)
+        add_opened(builder, component, f"flow_{side}", (own, side), factors, constant=half, numbers=numbers)
 
 
 def add_priority(builder: SystemBuilder, component: PriorityValve) -> None:
     """Two edges of one spool: CF closes as EF opens."""
-    ports, half, margin = component.ports, 0.5 * component.opening_range, component.margin
+    half, margin = 0.5 * component.opening_range, component.margin
     for side, sign, position in (("CF", 1.0, "position"), ("EF", -1.0, "position_EF")):
-        factors, ends = sums((ports["LS"], sign), (ports["CF"], -sign)), (ports["P"], ports[side])
-        add_opened(builder, component, f"flow_{side}", ends, factors, margin, sign, half, position=position)
+        factors = {"LS": sign, "CF": -sign}
+        add_opened(builder, component, f"flow_{side}", ("P", side), factors, margin, sign, half, position=position)
 
 
 THROTTLE: Final = "M-7 -7 Q-1 0 -7 7 M7 -7 Q1 0 7 7"

@@ -278,7 +278,7 @@ def add_slopes_of_pipes(machine, index, n, t):
 def add_pipe(builder: SystemBuilder, component: Pipe) -> None:
     """Losses of a pipe, and its inertia."""
     ends = component.ports["A"], component.ports["B"]
-    fluid = builder.circuit.fluids[flowing(builder, ends).fluid]
+    fluid = builder.circuit.fluids[flowing(builder, component).fluid]
     density, viscosity, d = fluid[4], fluid[5], component.diameter
     area = 0.25 * math.pi * d**2
     first = builder.outputs.add((f"hydraulics.{component.name}.flow", "m^3/s", f"flow of {component.name}"))

@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated
-from nivel.elements.circuits.composed import INNER_VOLUME, OF_POPPETS, add_opened, sums
+from nivel.elements.circuits.composed import INNER_VOLUME, OF_POPPETS, add_opened
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
 from nivel.elements.circuits.restrictions import add_flow
@@ -82,34 +82,29 @@ class CartridgeValve(Rated):
 
 def add_pilot_relief(builder: SystemBuilder, component: PilotReliefValve) -> None:
     """An orifice from P to X, a pilot from X to T, and the main poppet that p_P - p_X lifts."""
-    p, t, x = component.ports["P"], component.ports["T"], f"{component.name}.X"
-    add_opened(builder, component, "flow", (p, t), sums((p, 1.0), (x, -1.0)), component.spring)
-    _add_pilot(builder, component, (p, x, t), component.opens_at)
+    add_opened(builder, component, "flow", ("P", "T"), {"P": 1.0, ".X": -1.0}, component.spring)
+    _add_pilot(builder, component, "P", component.opens_at)
 
 
 def add_pilot_reducing(builder: SystemBuilder, component: PilotReducingValve) -> None:
     """An orifice from A to X, a pilot from X to T, and the main spool that p_A - p_X closes."""
-    p, a, t = (component.ports[port] for port in "PAT")
-    x = f"{component.name}.X"
     spring = component.spring + component.opening_range
-    add_opened(builder, component, "flow", (p, a), sums((a, -1.0), (x, 1.0)), spring, 1.0)
-    _add_pilot(builder, component, (a, x, t), component.pressure)
+    add_opened(builder, component, "flow", ("P", "A"), {"A": -1.0, ".X": 1.0}, spring, 1.0)
+    _add_pilot(builder, component, "A", component.pressure)
 
 
-def _add_pilot(builder: SystemBuilder, component: _Piloted, pilot: tuple[str, str, str], setting: TimeFunction) -> None:
-    """pilot : the nodes before its orifice, between orifice and seat, and behind the seat."""
-    before, x, drain = pilot
+def _add_pilot(builder: SystemBuilder, component: _Piloted, before: str, setting: TimeFunction) -> None:
+    """before : the port before its orifice."""
     size, corner = component.pilot_conductance, component.transition
-    add_flow(builder, component.name, "orifice_flow", (before, x), [size, corner, 0.0])
-    factors, seat = sums((x, 1.0), (drain, -1.0)), {"numbers": [2.0 * size, corner, 0.0], "span": component.pilot_range}
-    add_opened(builder, component, "pilot_flow", (x, drain), factors, setting, lag=0.0, **seat)
+    add_flow(builder, component, "orifice_flow", (before, ".X"), [size, corner, 0.0])
+    how = {"numbers": [2.0 * size, corner, 0.0], "span": component.pilot_range, "lag": 0.0}
+    add_opened(builder, component, "pilot_flow", (".X", "T"), {".X": 1.0, "T": -1.0}, setting, **how)
 
 
 def add_cartridge(builder: SystemBuilder, component: CartridgeValve) -> None:
     """p_A and p_B on their shares of the area of X against p_X and the spring."""
-    ports, share = component.ports, component.area_share
-    factors = sums((ports["A"], share), (ports["B"], 1.0 - share), (ports["X"], -1.0))
-    add_opened(builder, component, "flow", (ports["A"], ports["B"]), factors, component.opens_at)
+    factors = {"A": component.area_share, "B": 1.0 - component.area_share, "X": -1.0}
+    add_opened(builder, component, "flow", ("A", "B"), factors, component.opens_at)
 
 
 PILOT = path("M16 -9 l9 4 l-9 4 z", "full") + path("M0 -17 H-18 V0 H-12 M26 0 H34 V-20", "dashed")

@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated, VaryingPressure
-from nivel.elements.circuits.composed import OF_POPPETS, PASSES, add_check_between, add_opened, sums
+from nivel.elements.circuits.composed import OF_POPPETS, PASSES, add_check_between, add_opened
 from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.restrictions import add_flow, rated
@@ -103,33 +103,24 @@ class CrossPortRelief(Rated):
 
 def add_relief(builder: SystemBuilder, component: ReliefValve) -> None:
     """p_P - p_T against the spring."""
-    ports = component.ports
-    factors = {ports["P"]: 1.0, ports["T"]: -1.0}
-    add_opened(builder, component, "flow", (ports["P"], ports["T"]), factors, component.opens_at)
+    add_opened(builder, component, "flow", ("P", "T"), {"P": 1.0, "T": -1.0}, component.opens_at)
 
 
 def add_unloading(builder: SystemBuilder, component: UnloadingValve) -> None:
     """p_P - p_LS, or a pilot above the air, against the spring."""
-    ports = component.ports
-    factors, constant = sums((ports["P"], 1.0), (ports.get("LS", ""), -1.0)), 0.0
-    if "X" in ports:
-        factors, constant = {ports["X"]: 1.0}, -ATMOSPHERE
-    ends = ports["P"], ports["T"]
-    add_opened(builder, component, "flow", ends, factors, component.opens_at, constant=constant)
+    piloted = "X" in component.ports
+    factors, constant = ({"X": 1.0}, -ATMOSPHERE) if piloted else ({"P": 1.0, "LS": -1.0}, 0.0)
+    add_opened(builder, component, "flow", ("P", "T"), factors, component.opens_at, constant=constant)
 
 
 def add_cross_port(builder: SystemBuilder, component: CrossPortRelief) -> None:
     """A relief valve each way, and check valves from the tank line."""
-    ports = component.ports
     for a, b in (("A", "B"), ("B", "A")):
-        factors = sums((ports[a], 1.0), (ports[b], -1.0))
-        add_opened(builder, component, f"flow_{a}{b}", (ports[a], ports[b]), factors, component.opens_at)
-    if "T" in ports:
+        add_opened(builder, component, f"flow_{a}{b}", (a, b), {a: 1.0, b: -1.0}, component.opens_at)
+    for side in "AB" if "T" in component.ports else "":
         numbers = [component.check_conductance, component.transition, 0.0]
         spring = (component.check_opens_at, component.check_opening_range)
-        for side in "AB":
-            ends = (ports["T"], ports[side])
-            add_check_between(builder, component, f"flow_T{side}", ends, numbers, spring)
+        add_check_between(builder, component, f"flow_T{side}", ("T", side), numbers, spring)
 
 
 RELIEF = Symbol(
@@ -247,39 +238,32 @@ class SoftStart(Rated):
 
 def add_reducing(builder: SystemBuilder, component: ReducingValve) -> None:
     """The setting against p_A; the other way round for what relieves A."""
-    ports = component.ports
-    add_opened(builder, component, "flow", (ports["P"], ports["A"]), {ports["A"]: -1.0}, component.pressure, 1.0)
-    if "T" in ports:
-        ends, numbers = (ports["A"], ports["T"]), rated(component, 0.0)
-        add_opened(builder, component, "relief_flow", ends, {ports["A"]: 1.0}, component.pressure, numbers=numbers)
+    add_opened(builder, component, "flow", ("P", "A"), {"A": -1.0}, component.pressure, 1.0)
+    if "T" in component.ports:
+        numbers = rated(component, 0.0)
+        add_opened(builder, component, "relief_flow", ("A", "T"), {"A": 1.0}, component.pressure, numbers=numbers)
 
 
 def add_compensator(builder: SystemBuilder, component: Compensator) -> None:
     """The margin and half the range against p_A - p_LS."""
-    ports = component.ports
-    factors, half = {ports["A"]: -1.0, ports["LS"]: 1.0}, 0.5 * component.opening_range
-    add_opened(builder, component, "flow", (ports["P"], ports["A"]), factors, component.margin, 1.0, half)
+    factors, half = {"A": -1.0, "LS": 1.0}, 0.5 * component.opening_range
+    add_opened(builder, component, "flow", ("P", "A"), factors, component.margin, 1.0, half)
 
 
 def add_sequence(builder: SystemBuilder, component: SequenceValve) -> None:
     """p_P against the spring and its drain; perhaps a check valve back."""
-    ports = component.ports
-    factors, constant = {ports["P"]: 1.0}, -ATMOSPHERE
-    if "T" in ports:
-        factors, constant = sums((ports["P"], 1.0), (ports["T"], -1.0)), 0.0
-    ends = ports["P"], ports["A"]
-    add_opened(builder, component, "flow", ends, factors, component.opens_at, constant=constant)
+    drained = "T" in component.ports
+    factors, constant = ({"P": 1.0, "T": -1.0}, 0.0) if drained else ({"P": 1.0}, -ATMOSPHERE)
+    add_opened(builder, component, "flow", ("P", "A"), factors, component.opens_at, constant=constant)
     if component.free_return:
-        add_check_between(builder, component, "check_flow", (ports["A"], ports["P"]))
+        add_check_between(builder, component, "check_flow", ("A", "P"))
 
 
 def add_soft_start(builder: SystemBuilder, component: SoftStart) -> None:
     """p_A - share p_P opens what lies beside a throttle."""
-    ports, name = component.ports, component.name
-    ends, head = (ports["P"], ports["A"]), rated(component, 0.0)
-    factors, share = {ports["A"]: 1.0, ports["P"]: -component.switches_at}, component.throttle
-    add_opened(builder, component, "flow", ends, factors, 0.0, 1.0, numbers=[(1.0 - share) * head[0], *head[1:]])
-    add_flow(builder, name, "throttled_flow", ends, [share * head[0], *head[1:]])
+    head, share, factors = rated(component, 0.0), component.throttle, {"A": 1.0, "P": -component.switches_at}
+    add_opened(builder, component, "flow", ("P", "A"), factors, 0.0, 1.0, numbers=[(1.0 - share) * head[0], *head[1:]])
+    add_flow(builder, component, "throttled_flow", ("P", "A"), [share * head[0], *head[1:]])
 
 
 def reducing(data: Mapping[str, Any]) -> Symbol:

@@ -160,7 +160,7 @@ def add_machine(builder: SystemBuilder, component: Pump | HydraulicMotor) -> Non
     if "L" in ports:
         for port, quantity in (("B", "case_flow"), ("A", "case_flow_A")):
             if ports[port] != ports["L"]:
-                add_flow(builder, name, quantity, (ports[port], ports["L"]), [0.0, TRANSITION, component.case_leakage])
+                add_flow(builder, component, quantity, (port, "L"), [0.0, TRANSITION, component.case_leakage])
     add_setting(builder, component, first + SETTING, (a, b))
 
 

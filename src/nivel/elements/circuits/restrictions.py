@@ -205,18 +205,20 @@ CRITICAL_RATIO = 0.3  # of pneumatic valves that do not say
 
 def add_flow(
     builder: SystemBuilder,
-    component: str,
+    component: Component,
     quantity: str,
     ends: tuple[str, str],
     numbers: list[float],
     opening: tuple[int, int] = (FIXED, 0),
 ) -> None:
-    """A restriction between two nodes, of the family of their fluid. opening : its kind, and the output or function that it follows."""
-    first = builder.outputs.add(
-        (f"hydraulics.{component}.{quantity}", "m^3/s", f"{quantity.replace('_', ' ')} of {component}")
-    )
-    family = restrict_gas if builder.circuit.nodes[ends[0]].gas else restrict
-    builder.elements.add(family, [first, builder.node(ends[0]), builder.node(ends[1]), *opening], numbers)
+    """A restriction between two ports, or `.M` within a component, of the family of their fluid.
+
+    opening : its kind, and the output or function that it follows.
+    """
+    name, nodes = component.name, [component.node(place) for place in ends]
+    first = builder.outputs.add((f"hydraulics.{name}.{quantity}", "m^3/s", f"{quantity.replace('_', ' ')} of {name}"))
+    family = restrict_gas if builder.circuit.nodes[nodes[0]].gas else restrict
+    builder.elements.add(family, [first, *map(builder.node, nodes), *opening], numbers)
 
 
 def rated(component: Rating, leakage: float) -> list[float]:
@@ -262,20 +264,14 @@ class Orifice(Rating, Component):
 
 def add_orifice(builder: SystemBuilder, component: Orifice) -> None:
     """A restriction, fixed or with an opening that varies."""
-    ends = component.ports["A"], component.ports["B"]
-    numbers = rated(component, component.leakage)
+    numbers, node = rated(component, component.leakage), flowing(builder, component)
     if component.diameter is not None:
         area = 0.25 * math.pi * component.diameter**2 * component.discharge_coefficient
-        fluid = builder.circuit.fluids[flowing(builder, ends).fluid]
-        numbers[:2] = (
-            _nozzle(area, fluid)
-            if flowing(builder, ends).gas
-            else (area * math.sqrt(2.0 / fluid[4]), component.transition)
-        )
-    opening = (FIXED, 0)
-    if component.opening != 1.0:
-        opening = (GIVEN, builder.function(component.opening))
-    add_flow(builder, component.name, "flow", ends, numbers, opening)
+        fluid = builder.circuit.fluids[node.fluid]
+        of_liquid = (area * math.sqrt(2.0 / fluid[4]), component.transition)
+        numbers[:2] = _nozzle(area, fluid) if node.gas else of_liquid
+    opening = (FIXED, 0) if component.opening == 1.0 else (GIVEN, builder.function(component.opening))
+    add_flow(builder, component, "flow", ("A", "B"), numbers, opening)
 
 
 def _nozzle(area: float, gas: tuple[float, ...]) -> tuple[float, float]:
@@ -286,8 +282,9 @@ def _nozzle(area: float, gas: tuple[float, ...]) -> tuple[float, float]:
     return area * sonic / gas[REFERENCE], critical
 
 
-def flowing(builder: SystemBuilder, ends: tuple[str, str]) -> Node:
-    return builder.circuit.nodes[ends[0]]
+def flowing(builder: SystemBuilder, component: Component) -> Node:
+    """The node at port A of a component."""
+    return builder.circuit.nodes[component.ports["A"]]
 
 
 BODY = path("M0 -16 V16 M-8 -8 Q-1 0 -8 8 M8 -8 Q1 0 8 8")

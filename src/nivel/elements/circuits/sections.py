@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from nivel.elements.circuits import ranges
 from nivel.elements.circuits.component import Rated, VaryingPressure, problem_of_share
-from nivel.elements.circuits.composed import INNER_VOLUME, add_check_between, add_opened, sums
+from nivel.elements.circuits.composed import INNER_VOLUME, add_check_between, add_opened
 from nivel.elements.circuits.directional_valves import add_spool, directional_valve, move, spool
 from nivel.elements.circuits.kind import ComponentKind
 from nivel.elements.circuits.nodes import inner_nodes
@@ -197,8 +197,7 @@ def add_section(builder: SystemBuilder, component: Section) -> None:
     add_spool(builder, component, position, -1.0)
     forward, drop = component.conductance, component.pressure_drop or 1.0
     back = component.flow_B / drop**0.5 if component.flow_B else forward
-    m, c = f"{name}.M", f"{name}.C"
-    side = {each: f"{name}.H{each}" if each in _held(component) else ports[each] for each in "AB"}
+    side = {each: f".H{each}" if each in _held(component) else each for each in "AB"}
     floats = component.float_from or 1.0
 
     def edge(quantity: str, ends: tuple[str, str], size: float, sign: float, *, meters: bool = False) -> None:
@@ -207,43 +206,44 @@ def add_section(builder: SystemBuilder, component: Section) -> None:
         slope = [sign, -component.overlap, component.rounding, 1.0 / full]
         numbers = [size, component.transition, component.leakage, *slope]
         if meters and sign < 0.0 and component.float_from is not None:
-            return add_flow(builder, name, quantity, ends, [*numbers, floats - component.overlap], (BAND, position))
-        return add_flow(builder, name, quantity, ends, numbers, (EDGE, position))
+            numbers.append(floats - component.overlap)
+            return add_flow(builder, component, quantity, ends, numbers, (BAND, position))
+        return add_flow(builder, component, quantity, ends, numbers, (EDGE, position))
 
     def joined_where_it_floats(quantity: str, ends: tuple[str, str], size: float) -> None:
         slope = [-1.0, -floats, component.rounding, 1.0 / (1.0 - floats)]
-        add_flow(builder, name, quantity, ends, [size, component.transition, 0.0, *slope], (EDGE, position))
+        add_flow(builder, component, quantity, ends, [size, component.transition, 0.0, *slope], (EDGE, position))
 
     if kind == "pre":
-        _add_compensator(builder, component, (ports["P"], m), (m, 1.0 - (component.saturation_share or 0.0)))
+        _add_compensator(builder, component, ("P", ".M"), 1.0 - (component.saturation_share or 0.0))
     elif kind == "post":
-        edge("flow_PM", (ports["P"], m), forward, 1.0)
-        edge("flow_PM_back", (ports["P"], m), back, -1.0, meters=True)
-        _add_compensator(builder, component, (m, c), (m, 1.0))
-        edge("flow_CA", (c, side["A"]), DIRECTING * forward, 1.0)
-        edge("flow_CB", (c, side["B"]), DIRECTING * back, -1.0)
+        edge("flow_PM", ("P", ".M"), forward, 1.0)
+        edge("flow_PM_back", ("P", ".M"), back, -1.0, meters=True)
+        _add_compensator(builder, component, (".M", ".C"), 1.0)
+        edge("flow_CA", (".C", side["A"]), DIRECTING * forward, 1.0)
+        edge("flow_CB", (".C", side["B"]), DIRECTING * back, -1.0)
     elif kind != "none":
         bypass = component.bypass_flow / drop**0.5 if component.bypass_flow else forward
         numbers = [bypass, component.transition, 0.0, 0.0, 0.0, component.bypass_closes]
-        add_flow(builder, name, "flow_NC", (ports["N"], ports["C"]), numbers, (MIDDLE, position))
+        add_flow(builder, component, "flow_NC", ("N", "C"), numbers, (MIDDLE, position))
         if component.float_from is not None:
-            joined_where_it_floats("float_flow_NC", (ports["N"], ports["C"]), bypass)
+            joined_where_it_floats("float_flow_NC", ("N", "C"), bypass)
         for port, share in (("N", 1.0), ("P", component.parallel_flow)):
             if port in ports and (kind == "parallel") <= (port == "P"):
                 size = DIRECTING * forward if share is None or port == "N" else share / drop**0.5
                 numbers = [size, component.transition, 0.0]
-                add_check_between(builder, component, f"flow_{port}M", (ports[port], m), numbers)
+                add_check_between(builder, component, f"flow_{port}M", (port, ".M"), numbers)
     if kind != "post":
-        fed = ports["P"] if kind == "none" else m
-        edge(f"flow_{'P' if kind == 'none' else 'M'}A", (fed, side["A"]), forward, 1.0)
-        edge(f"flow_{'P' if kind == 'none' else 'M'}B", (fed, side["B"]), back, -1.0, meters=True)
+        fed = "P" if kind == "none" else ".M"
+        edge(f"flow_{fed[-1]}A", (fed, side["A"]), forward, 1.0)
+        edge(f"flow_{fed[-1]}B", (fed, side["B"]), back, -1.0, meters=True)
     returned = component.return_flow / drop**0.5 if component.return_flow else None
     out = "C" if kind == "series" else "T"
     for each, size, sign in (("B", returned or back, 1.0), ("A", returned or forward, -1.0)):
         to = "R" if component.regeneration == BACK[each] else out
-        edge(f"flow_{each}{to}", (side[each], f"{name}.R" if to == "R" else ports[out]), size, sign)
+        edge(f"flow_{each}{to}", (side[each], ".R" if to == "R" else out), size, sign)
     if component.float_from is not None:
-        joined_where_it_floats("float_flow_BT", (ports["B"], ports["T"]), returned or back)
+        joined_where_it_floats("float_flow_BT", ("B", "T"), returned or back)
     if component.regeneration is not None:
         _add_regeneration(builder, component, side[component.regeneration], out)
     for each in _held(component):
@@ -252,42 +252,29 @@ def add_section(builder: SystemBuilder, component: Section) -> None:
 
 def _add_regeneration(builder: SystemBuilder, component: Section, fed: str, out: str) -> None:
     """From R to the side that is fed a check valve; to the return what opens as the pressure of that side rises."""
-    name, to, word = component.name, component.ports[out], component.regeneration
     numbers = [DIRECTING * component.conductance, component.transition, 0.0]
-    add_check_between(builder, component, f"regenerated_flow_R{word}", (f"{name}.R", fed), numbers)
-    factors = sums((fed, 1.0), (to, -1.0))
-    add_opened(
-        builder,
-        component,
-        f"flow_R{out}",
-        (f"{name}.R", to),
-        factors,
-        component.regeneration_until,
-        numbers=numbers,
-        lag=0.0,
-    )
+    add_check_between(builder, component, f"regenerated_flow_R{component.regeneration}", (".R", fed), numbers)
+    ends, factors, until = (".R", out), {fed: 1.0, out: -1.0}, component.regeneration_until
+    add_opened(builder, component, f"flow_R{out}", ends, factors, until, numbers=numbers, lag=0.0)
 
 
 def _add_holding(builder: SystemBuilder, component: Section, side: str, position: int) -> None:
     """A check valve from the spool to A or B, which the spool opens as it moves to the other side."""
-    inner, port = f"{component.name}.H{side}", component.ports[side]
     numbers = [DIRECTING * component.conductance, component.transition, 0.0]
-    add_check_between(builder, component, f"check_flow_{side}", (inner, port), numbers)
+    add_check_between(builder, component, f"check_flow_{side}", (f".H{side}", side), numbers)
     begins = 0.5 * component.overlap
     slope = [1.0 if side == "B" else -1.0, -begins, component.rounding, 1.0 / (1.0 - begins - 0.5 * component.rounding)]
-    add_flow(builder, component.name, f"release_flow_{side}", (port, inner), [*numbers, *slope], (EDGE, position))
+    ends = side, f".H{side}"
+    add_flow(builder, component, f"release_flow_{side}", ends, [*numbers, *slope], (EDGE, position))
 
 
-def _add_compensator(
-    builder: SystemBuilder, component: Section, ends: tuple[str, str], felt: tuple[str, float]
-) -> None:
+def _add_compensator(builder: SystemBuilder, component: Section, ends: tuple[str, str], rest: float) -> None:
     """pre: margin, or its share of p_P - p_LS, against p_M - p_LS. post: p_M against p_LS and the margin."""
-    ls, p, half = component.ports["LS"], component.ports["P"], 0.5 * component.opening_range
-    m, rest = felt
+    half = 0.5 * component.opening_range
     sign, setting = (-1.0 if component.compensation == "post" else 1.0), component.margin
-    factors = sums((m, -sign), (ls, sign))
+    factors = {".M": -sign, "LS": sign}
     if component.compensation != "post" and component.saturation_share is not None:
-        factors, setting = sums((m, -1.0), (ls, rest), (p, component.saturation_share)), 0.0
+        factors, setting = {".M": -1.0, "LS": rest, "P": component.saturation_share}, 0.0
     size = 2.0 * component.conductance
     if component.compensator_flow and component.pressure_drop:
         size = component.compensator_flow / component.pressure_drop**0.5

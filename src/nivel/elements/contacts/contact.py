@@ -271,12 +271,7 @@ class Contacts(ForceElement):
     )
 
     inequalities: ClassVar[Inequalities] = (
-        Acts(
-            ("is apart", "touches"),
-            "depth",
-            lambda own, of: of["depth"],
-            lambda own, of: of["normal_force"],
-        ),
+        Acts(("is apart", "touches"), "depth", lambda own, of: of["depth"], lambda own, of: of["normal_force"]),
     )
 
     type: Literal["contacts"] = "contacts"

@@ -16,20 +16,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from nivel.elements.contacts.law import (
-    NORMAL,
-    NUMBERS,
-    POINT,
-    SPEED,
-    Points,
-    is_far,
-    mean_speed,
-    pair,
-)
-from nivel.elements.contacts.rounds import (
-    ends_of,
-    note_place,
-)
+from nivel.elements.contacts.law import NORMAL, NUMBERS, POINT, SPEED, Points, is_far, mean_speed, pair
+from nivel.elements.contacts.rounds import ends_of, note_place
 from nivel.elements.contacts.shapes import ball_of_shape, part_of, polytope_of
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.spatial import cross, dot

@@ -11,11 +11,7 @@ import numpy as np
 from nivel.elements.contacts import ellipsoids, ground, height_way, heights, hulls, rounds
 from nivel.elements.contacts.contact import WORK, Contact
 from nivel.elements.contacts.law import Points, law_numbers
-from nivel.elements.contacts.shapes import (
-    hull_of,
-    part_of,
-    shape_marker,
-)
+from nivel.elements.contacts.shapes import hull_of, part_of, shape_marker
 from nivel.elements.facts import add_outputs
 from nivel.elements.forces.friction import ROUND_FACE, add_friction_work, add_patch, rub_off
 from nivel.elements.kind import Kind

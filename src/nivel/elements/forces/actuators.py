@@ -265,8 +265,4 @@ def is_motion(target: TimeFunction) -> bool:
         return False
 
 
-KINDS = (
-    Kind(Stop, add_stop, (stop,)),
-    Kind(Motor, add_motor, (drive,)),
-    Kind(Servo, add_servo, (servo,)),
-)
+KINDS = (Kind(Stop, add_stop, (stop,)), Kind(Motor, add_motor, (drive,)), Kind(Servo, add_servo, (servo,)))

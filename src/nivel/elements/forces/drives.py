@@ -322,7 +322,4 @@ def _rotor(builder: SystemBuilder, force: Drive, angle: bool) -> tuple[int, int]
     return twist, speed
 
 
-KINDS = (
-    Kind(DcMotor, add_dc_motor, (drive,)),
-    Kind(ServoMotor, add_servo_motor, (drive,)),
-)
+KINDS = (Kind(DcMotor, add_dc_motor, (drive,)), Kind(ServoMotor, add_servo_motor, (drive,)))

@@ -168,8 +168,4 @@ def add_pair(builder: SystemBuilder, force: PairForce) -> None:
     builder.add(push, row)
 
 
-KINDS = (
-    Kind(PointForce, add_load, (push,)),
-    Kind(Torque, add_load, (push,)),
-    Kind(PairForce, add_pair, (push, drive)),
-)
+KINDS = (Kind(PointForce, add_load, (push,)), Kind(Torque, add_load, (push,)), Kind(PairForce, add_pair, (push, drive)))

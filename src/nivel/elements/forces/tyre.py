@@ -32,26 +32,10 @@ import numpy as np
 from pydantic import BeforeValidator
 
 from nivel.elements.contacts.height_field import HeightField
-from nivel.elements.contacts.heights import (
-    BEND,
-    HIGHEST,
-    height,
-    look_at_heights,
-    mesh_of,
-    numbers_of,
-    surface,
-)
+from nivel.elements.contacts.heights import BEND, HIGHEST, height, look_at_heights, mesh_of, numbers_of, surface
 from nivel.elements.facts import Output, StateFact, add_outputs, of_force
 from nivel.elements.forces import magic_formula
-from nivel.elements.forces.magic_formula import (
-    MOST_SLIP,
-    Magic,
-    MagicFormula,
-    lever,
-    magic,
-    overturning,
-    resistance,
-)
+from nivel.elements.forces.magic_formula import MOST_SLIP, Magic, MagicFormula, lever, magic, overturning, resistance
 from nivel.elements.kind import Kind
 from nivel.elements.rows import Row, element, several
 from nivel.kernels.algebra.analytic import absolute, arctan2, maximum, minimum, real

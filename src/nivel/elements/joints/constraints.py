@@ -3,7 +3,7 @@
 from collections.abc import Callable, Collection
 from typing import Any, Final
 
-from nivel.elements.joints.in_trees import ARMS, CROSS, draw_translational, draw_universal
+from nivel.elements.joints.in_trees import ARMS, ARMS_OF_CROSS, CROSS, RAIL, SQUARES
 from nivel.elements.joints.kind import (
     ALONG_Z,
     ANGLE,
@@ -12,6 +12,7 @@ from nivel.elements.joints.kind import (
     ON_AXIS,
     PARALLEL,
     POINT,
+    THIN,
     WITH_AXIS,
     Basic,
     Combination,
@@ -24,7 +25,7 @@ from nivel.elements.joints.kind import (
     PerpendicularDistance,
     X,
     Y,
-    unknown,
+    sign,
 )
 from nivel.kernels.bodies.coordinate import COSINE, DISTANCE, MOMENT, POLAR, RADIUS, TRANSLATION
 from nivel.kernels.bodies.rolling import CONTACT, SLIP
@@ -71,10 +72,7 @@ OF_WHEEL = (
 )
 HELD = JointCoordinate("distance", Measured(DISTANCE), "m", "between the points of the markers, held by the joint")
 VARIED = JointCoordinate(
-    "distance",
-    Measured(DISTANCE),
-    "m",
-    "between the points of the markers, which drivers and forces may act on",
+    "distance", Measured(DISTANCE), "m", "between the points of the markers, which drivers and forces may act on"
 )
 OF_LINK = JointCoordinate(
     "angle",
@@ -106,59 +104,22 @@ HINGE: Final = '<circle r="4.6"/><circle r="1.3" class="dot"/>'
 SLEEVE: Final = '<rect x="-3.5" y="-6" width="7" height="12" rx="2"/><path d="M0 -9.5V9.5" class="axis"/>'
 
 
-def _point_on_line(seen: bool) -> str:
-    if not seen:
-        return '<circle r="5"/><path d="M-2.6 0H2.6M0 -2.6V2.6" class="axis"/>'
-    return '<path d="M-17 0H17" class="axis"/><circle r="4.6" class="solid"/>'
-
-
-def _point_on_plane(seen: bool) -> str:
-    if not seen:
-        return '<rect x="-9" y="-9" width="18" height="18" class="thin"/><circle r="4.2" class="solid"/>'
-    return f'<path d="M{-PLANE_GAP} -15V15" class="axis"/><circle r="4.2" class="solid"/>'
-
-
-def _rolling(seen: bool) -> str:
-    if not seen:
-        return '<circle r="9"/><circle r="1.6" class="dot"/>'
-    return '<path d="M-9 -15V15" class="axis"/><circle r="9"/><circle r="1.6" class="dot"/>'
-
-
-def _pin_in_slot(seen: bool) -> str:
-    if not seen:
-        return '<rect x="-6" y="-6" width="12" height="12" rx="3"/><circle r="2.6" class="solid"/>'
-    return '<rect x="-15" y="-5.5" width="30" height="11" rx="5.5"/><circle r="3.8" class="solid"/>'
-
-
 def _rod(first: str, second: str) -> Callable[[bool], str]:
     """A massless link, small, between the signs of its ends."""
     bar = '<path d="M-11 0H11" class="axis"/>'
-    return lambda seen: f'{bar}<g transform="translate(-11 0)">{first}</g><g transform="translate(11 0)">{second}</g>'
+    return sign(f'{bar}<g transform="translate(-11 0)">{first}</g><g transform="translate(11 0)">{second}</g>')
 
 
-def _cylinder(seen: bool) -> str:
-    """A cylinder with its rod, between two balls."""
-    barrel = '<rect x="-9" y="-4" width="11" height="8" rx="1"/><path d="M-4 -4V4M-4 0H11" class="axis"/>'
-    ends = f'<g transform="translate(-12 0)">{BALL}</g><g transform="translate(12 0)">{BALL}</g>'
-    return f"{barrel}{ends}"
-
-
-def _skew_universal(seen: bool) -> str:
-    return f'{draw_universal(seen)}<path d="M-2 8L2 4" class="axis"/>'
-
-
-def _translational_universal(seen: bool) -> str:
-    return f'{draw_translational(seen)}<path d="M0 -4V4M-4 0H4" class="axis"/>'
-
-
-def _generic(seen: bool) -> str:
-    return f'{unknown(seen)}<circle r="2.4" class="dot"/>'
-
+BARREL = '<rect x="-9" y="-4" width="11" height="8" rx="1"/><path d="M-4 -4V4M-4 0H11" class="axis"/>'
+ENDS = f'<g transform="translate(-12 0)">{BALL}</g><g transform="translate(12 0)">{BALL}</g>'
+WHEEL = '<circle r="9"/><circle r="1.6" class="dot"/>'
+SLIDING_CROSS = '<path d="M0 -4V4M-4 0H4" class="axis"/>'
+AT_POINT = '<rect x="-9" y="-9" width="18" height="18" class="thin"/><circle r="4.2" class="solid"/>'
 
 KINDS = (
     JointKind("distance", ROD, None, _rod(BALL, BALL), BALLS, **BETWEEN),
     JointKind("spherical-spherical", ROD, None, _rod(BALL, BALL), BALLS, **BETWEEN),
-    JointKind("variable-distance", Composition((), (VARIED,)), None, _cylinder, BALLS, place=("points",)),
+    JointKind("variable-distance", Composition((), (VARIED,)), None, sign(BARREL + ENDS), BALLS, place=("points",)),
     # a link that turns about the first marker's z axis and holds the second point
     JointKind(
         "revolute-spherical",
@@ -194,7 +155,7 @@ KINDS = (
         "skew-universal",
         Composition((POINT, SAME_ANGLE), ARMS),
         None,
-        _skew_universal,
+        sign(f'{ARMS_OF_CROSS}<path d="M-2 8L2 4" class="axis"/>'),
         **(CROSS | NOT_PARALLEL),
     ),
     # a universal joint whose cross slides along z of the first marker, with its arms along x of the first and z of the second
@@ -202,7 +163,7 @@ KINDS = (
         "translational-universal",
         Composition((*ON_AXIS, PerpendicularAxes("x", "z")), (DISPLACEMENT,)),
         None,
-        _translational_universal,
+        sign(RAIL + SLIDING_CROSS, SQUARES + SLIDING_CROSS),
         place=("point", "axis", "axes"),
         axes="perpendicular",
         mirror="sliding",
@@ -211,7 +172,10 @@ KINDS = (
         "point-on-line",
         Composition(ON_AXIS, (DISPLACEMENT,)),
         None,
-        _point_on_line,
+        sign(
+            '<path d="M-17 0H17" class="axis"/><circle r="4.6" class="solid"/>',
+            '<circle r="5"/><path d="M-2.6 0H2.6M0 -2.6V2.6" class="axis"/>',
+        ),
         Looks("second", ground="line", slides="first"),
         mirror="sliding",
         point_mass="second",
@@ -221,7 +185,7 @@ KINDS = (
         "point-on-plane",
         Composition((PerpendicularDistance("z"),), (X, Y)),
         None,
-        _point_on_plane,
+        sign(f'<path d="M{-PLANE_GAP} -15V15" class="axis"/><circle r="4.2" class="solid"/>', AT_POINT),
         Looks("second", ground="plane", icon=ON_LEVEL),
         point_mass="second",
         **WITH_AXIS,
@@ -233,7 +197,10 @@ KINDS = (
             (*PARALLEL, PerpendicularDistance("x", "slot"), PerpendicularDistance("y", "slot")), (ANGLE, IN_SLOT)
         ),
         None,
-        _pin_in_slot,
+        sign(
+            '<rect x="-15" y="-5.5" width="30" height="11" rx="5.5"/><circle r="3.8" class="solid"/>',
+            '<rect x="-6" y="-6" width="12" height="12" rx="3"/><circle r="2.6" class="solid"/>',
+        ),
         Looks(turns=("first",), slides="slot"),
         place=("point", "axes"),
         axes="not parallel",
@@ -242,7 +209,7 @@ KINDS = (
         "rolling",
         Composition((ON_PLANE, _slip(0), _slip(1)), OF_WHEEL),
         None,
-        _rolling,
+        sign(f'<path d="M-9 -15V15" class="axis"/>{WHEEL}', WHEEL),
         Looks("second", icon=ON_LEVEL),
         place=("points", "axes"),
         may=("x_axis",),
@@ -256,7 +223,7 @@ KINDS = (
         "generic",
         generic(()),
         None,
-        _generic,
+        sign(f'{THIN}<circle r="2.4" class="dot"/>'),
         composed=lambda joint: generic(joint.locked or ()),
         size=("locked",),
         opposite="displacement",

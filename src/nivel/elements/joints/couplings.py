@@ -29,12 +29,30 @@ Terms = tuple[tuple[str, float], ...]
 _TWO = Field("two joint coordinates, or joints that have only one")
 
 
-class Gear(Checked):
-    """Two wheels that mesh: n₁ angle₁ + n₂ angle₂ is held; of an internal gear n₁ angle₁ - n₂ angle₂."""
+class Coupling(Checked):
+    """An equation between joint coordinates. needed : kinds of the coordinates of its terms; none where any will do."""
 
     collection: ClassVar[str] = "couplings"
+    needed: ClassVar[tuple[Kind, ...]] = ()
 
     name: Name
+
+    @property
+    def terms(self) -> Terms:
+        """(coordinate as written, factor), … whose sum is held; of a function the linear part of coordinate - value = 0."""
+        raise NotImplementedError
+
+    @property
+    def kinds(self) -> tuple[Kind | None, ...]:
+        """What kind of coordinate each term needs."""
+        return self.needed or (None,) * len(self.terms)
+
+
+class Gear(Coupling):
+    """Two wheels that mesh: n₁ angle₁ + n₂ angle₂ is held; of an internal gear n₁ angle₁ - n₂ angle₂."""
+
+    needed: ClassVar[tuple[Kind, ...]] = ("angle", "angle")
+
     type: Literal["gear"] = "gear"
     joints: Annotated[TwoNames[CoordinateReference], _TWO]
     teeth: Maybe[TwoNumbers[PositiveNumber]] = Field("numbers of teeth n₁, n₂", default=None)
@@ -43,14 +61,8 @@ class Gear(Checked):
 
     @property
     def terms(self) -> Terms:
-        """(coordinate as written, factor), … whose sum is held."""
         first, second = self.teeth or (1.0, self.ratio or 1.0)
         return (self.joints[0], first), (self.joints[1], -second if self.internal else second)
-
-    @property
-    def kinds(self) -> tuple[Kind | None, ...]:
-        """What kind of coordinate each term needs."""
-        return "angle", "angle"
 
     def problems(self) -> Iterator[Problem]:
         if self.teeth is None and self.ratio is None:
@@ -64,12 +76,11 @@ class Gear(Checked):
                 )
 
 
-class Belt(Checked):
+class Belt(Coupling):
     """Two pulleys and a belt that does not slip: r₁ angle₁ - r₂ angle₂ is held; crossed r₁ angle₁ + r₂ angle₂."""
 
-    collection: ClassVar[str] = "couplings"
+    needed: ClassVar[tuple[Kind, ...]] = ("angle", "angle")
 
-    name: Name
     type: Literal["belt"] = "belt"
     joints: Annotated[TwoNames[CoordinateReference], _TWO]
     radii: TwoNumbers[PositiveLength] = Field("of the pulleys r₁, r₂")
@@ -77,60 +88,38 @@ class Belt(Checked):
 
     @property
     def terms(self) -> Terms:
-        """(coordinate as written, factor), … whose sum is held."""
         first, second = self.radii
         return (self.joints[0], first), (self.joints[1], second if self.crossed else -second)
 
-    @property
-    def kinds(self) -> tuple[Kind | None, ...]:
-        """What kind of coordinate each term needs."""
-        return "angle", "angle"
 
-
-class Rack(Checked):
+class Rack(Coupling):
     """A pinion and a rack: displacement - r · angle is held."""
 
-    collection: ClassVar[str] = "couplings"
+    needed: ClassVar[tuple[Kind, ...]] = ("length", "angle")
 
-    name: Name
     type: Literal["rack"] = "rack"
     joints: TwoNames[CoordinateReference] = Field("the pinion's angle, the rack's way")
     radius: Length = Field("of the pinion; negative: the rack moves the other way")
 
     @property
     def terms(self) -> Terms:
-        """(coordinate as written, factor), … whose sum is held."""
         return (self.joints[1], 1.0), (self.joints[0], -self.radius)
-
-    @property
-    def kinds(self) -> tuple[Kind | None, ...]:
-        """What kind of coordinate each term needs."""
-        return "length", "angle"
 
     def problems(self) -> Iterator[Problem]:
         if self.radius == 0:
             yield Problem(("radius",), "`radius` is zero: such a pinion moves no rack")
 
 
-class LinearCoupling(Checked):
+class LinearCoupling(Coupling):
     """Σ factor · coordinate is held."""
 
-    collection: ClassVar[str] = "couplings"
-
-    name: Name
     type: Literal["linear"] = "linear"
     coordinates: ManyNames[CoordinateReference] = Field("two or more different joint coordinates")
     factors: ManyNumbers[Scalar] = Field("one for each coordinate [m or rad], none zero")
 
     @property
     def terms(self) -> Terms:
-        """(coordinate as written, factor), … whose sum is held."""
         return tuple(zip(self.coordinates, self.factors, strict=True))
-
-    @property
-    def kinds(self) -> tuple[Kind | None, ...]:
-        """What kind of coordinate each term needs."""
-        return (None,) * len(self.coordinates)
 
     def problems(self) -> Iterator[Problem]:
         if len(self.coordinates) < 2:
@@ -147,12 +136,9 @@ class LinearCoupling(Checked):
 SMOOTH: Final = ("cubic", "quintic", "periodic")
 
 
-class FunctionCoupling(Checked):
+class FunctionCoupling(Coupling):
     """A coordinate that is a function of others: coordinate = value, as of a cam, a pair of non-circular gears, a linkage as a curve."""
 
-    collection: ClassVar[str] = "couplings"
-
-    name: Name
     type: Literal["function"] = "function"
     coordinate: CoordinateReference = Field("joint coordinate that follows")
     value: CoordinatePosition = Field("length or angle, a smooth function of other joint coordinates")
@@ -167,13 +153,7 @@ class FunctionCoupling(Checked):
 
     @property
     def terms(self) -> Terms:
-        """(coordinate, factor), …: the linear part of coordinate - value = 0."""
         return (self.coordinate, 1.0), *((each, 0.0) for each in self.coordinates)
-
-    @property
-    def kinds(self) -> tuple[Kind | None, ...]:
-        """What kind of coordinate each term needs."""
-        return (None,) * len(self.terms)
 
     @cached_property
     def counts_turns(self) -> bool:

@@ -33,12 +33,9 @@ from nivel.elements.joints.kind import (
     TreeJoint,
     X,
     Y,
+    sign,
 )
-from nivel.kernels.bodies.coordinate import (
-    CROSS_FIRST,
-    CROSS_SECOND,
-    ROTATION,
-)
+from nivel.kernels.bodies.coordinate import CROSS_FIRST, CROSS_SECOND, ROTATION
 from nivel.kernels.record import record as kernels
 from nivel.machine.core.orientation import euler_parameters_from_matrix, product
 
@@ -136,52 +133,13 @@ CROSS: dict[str, Any] = {"place": ("point", "axes"), "axes": "perpendicular", "m
 END_ON = (0.0, 0.0)
 
 
-def _revolute(seen: bool) -> str:
-    if not seen:
-        return f'<circle r="{SIGN}"/><circle r="1.6" class="dot"/>'
-    return '<rect x="-9" y="-5" width="18" height="10" rx="2.5"/><path d="M-14 0H14" class="axis"/>'
-
-
-def _cylindrical(seen: bool) -> str:
-    if not seen:
-        return f'<circle r="{SIGN}"/><circle r="3" class="thin"/>'
-    arrows = '<path d="M-15.5 0l4-2.6v5.2zM15.5 0l-4-2.6v5.2z" class="dot"/>'
-    return f'<path d="M-15 0H15" class="axis"/><rect x="-8" y="-5" width="16" height="10" rx="2.5"/>{arrows}'
-
-
-def draw_translational(seen: bool) -> str:
-    if not seen:
-        return '<rect x="-6" y="-6" width="12" height="12"/><rect x="-2.5" y="-2.5" width="5" height="5" class="thin"/>'
-    return '<path d="M-17 -6.5H17M-17 6.5H17" class="axis"/><rect x="-9" y="-4.5" width="18" height="9"/>'
-
-
-def _spherical(seen: bool) -> str:
-    return f'<circle r="{SIGN}"/><circle r="3.6" class="dot"/>'
-
-
-def draw_universal(seen: bool) -> str:
-    return f'<circle r="{SIGN}"/><path d="M-4.4 -4.4L4.4 4.4M-4.4 4.4L4.4 -4.4" class="axis"/>'
-
-
-def _fixed(seen: bool) -> str:
-    return '<rect x="-5.5" y="-5.5" width="11" height="11" class="solid"/>'
-
-
-def _planar(seen: bool) -> str:
-    if not seen:
-        arrows = "M0 -10l-2.6 4h5.2zM0 10l-2.6 -4h5.2zM-10 0l4 -2.6v5.2zM10 0l-4 -2.6v5.2z"
-        return f'<rect x="-10.5" y="-10.5" width="21" height="21" rx="2"/><path d="{arrows}" class="dot"/>'
-    return '<rect x="-2.5" y="-8" width="7" height="16"/><path d="M-5 -15V15" class="axis"/>'
-
-
-def _screw(seen: bool) -> str:
-    if not seen:
-        return f'<circle r="{SIGN}"/><path d="M3.4 0A3.4 3.4 0 1 1 0 -3.4" class="axis"/>'
-    thread = "".join(f"M{k} 5l4 -10" for k in (-8, -4, 0, 4))
-    return (
-        '<path d="M-15 0H15" class="axis"/><rect x="-8" y="-5" width="16" height="10" rx="1"/>'
-        f'<path d="{thread}" class="thin"/>'
-    )
+SQUARES = '<rect x="-6" y="-6" width="12" height="12"/><rect x="-2.5" y="-2.5" width="5" height="5" class="thin"/>'
+RAIL = '<path d="M-17 -6.5H17M-17 6.5H17" class="axis"/><rect x="-9" y="-4.5" width="18" height="9"/>'
+SCREW_AXIS = '<path d="M-15 0H15" class="axis"/><rect x="-8" y="-5" width="16" height="10" rx="1"/>'
+THREAD = '<path d="M-8 5l4 -10M-4 5l4 -10M0 5l4 -10M4 5l4 -10" class="thin"/>'
+SLEEVE_AXIS = '<path d="M-15 0H15" class="axis"/><rect x="-8" y="-5" width="16" height="10" rx="2.5"/>'
+ARMS_OF_CROSS = f'<circle r="{SIGN}"/><path d="M-4.4 -4.4L4.4 4.4M-4.4 4.4L4.4 -4.4" class="axis"/>'
+FOUR_ARROWS = "M0 -10l-2.6 4h5.2zM0 10l-2.6 -4h5.2zM-10 0l4 -2.6v5.2zM10 0l-4 -2.6v5.2z"
 
 
 KINDS = (
@@ -189,7 +147,10 @@ KINDS = (
         "revolute",
         Composition((POINT, *PARALLEL), (ANGLE,)),
         _by_coordinates(kernels.REVOLUTE, "angle"),
-        _revolute,
+        sign(
+            '<rect x="-9" y="-5" width="18" height="10" rx="2.5"/><path d="M-14 0H14" class="axis"/>',
+            f'<circle r="{SIGN}"/><circle r="1.6" class="dot"/>',
+        ),
         Looks(turns=("first",), icon=END_ON),
         {"spherical": OF_POINT, "cylindrical": ("s.axis", "d1.xz", "d1.yz"), "point-on-line": ("s.axis",)},
         **WITH_AXIS,
@@ -198,7 +159,7 @@ KINDS = (
         "translational",
         Composition((*PARALLEL, *ON_AXIS, NO_SPIN), (DISPLACEMENT,)),
         _by_coordinates(kernels.TRANSLATIONAL, "displacement"),
-        draw_translational,
+        sign(RAIL, SQUARES),
         Looks("moving", ground="rail", slides="first"),
         {"cylindrical": ("d1.xz", "d1.yz", "d2.x", "d2.y"), "point-on-line": ("d2.x", "d2.y")},
         mirror="sliding",
@@ -208,7 +169,10 @@ KINDS = (
         "cylindrical",
         Composition((*PARALLEL, *ON_AXIS), (ANGLE, DISPLACEMENT)),
         _by_coordinates(kernels.CYLINDRICAL, "angle", "displacement"),
-        _cylindrical,
+        sign(
+            f'{SLEEVE_AXIS}<path d="M-15.5 0l4-2.6v5.2zM15.5 0l-4-2.6v5.2z" class="dot"/>',
+            f'<circle r="{SIGN}"/><circle r="3" class="thin"/>',
+        ),
         Looks("moving", ground="rail", turns=("first",)),
         {"point-on-line": ("d2.x", "d2.y")},
         without_turn="translational",
@@ -221,7 +185,7 @@ KINDS = (
         _by_coordinates(
             kernels.SCREW, "angle", numbers=lambda joint, angle, d: (_lead(joint), d - _lead(joint) * angle)
         ),
-        _screw,
+        sign(SCREW_AXIS + THREAD, f'<circle r="{SIGN}"/><path d="M3.4 0A3.4 3.4 0 1 1 0 -3.4" class="axis"/>'),
         Looks("moving", ground="rail", slides="first"),
         size=("pitch",),
         opposite="displacement",
@@ -239,7 +203,7 @@ KINDS = (
             coordinates=("angle_1", "angle_2"),
             backwards=("angle_2", "angle_1"),
         ),
-        draw_universal,
+        sign(ARMS_OF_CROSS),
         Looks(icon=END_ON),
         {"spherical": OF_POINT},
         **CROSS,
@@ -248,7 +212,7 @@ KINDS = (
         "spherical",
         Composition((POINT,)),
         TreeJoint(kernels.SPHERICAL, ("1",) * 4, _start_spherical, lambda q, _: np.array(q), turning=True),
-        _spherical,
+        sign(f'<circle r="{SIGN}"/><circle r="3.6" class="dot"/>'),
         Looks(icon=END_ON),
         without_turn="universal",
         place=("point",),
@@ -259,7 +223,10 @@ KINDS = (
         Composition((*PARALLEL, PerpendicularDistance("z")), (X, Y, ANGLE)),
         # along the axes of the second marker, which turn against those of the first
         _by_coordinates(kernels.PLANAR, "x", "y", "angle", backwards=("x_from_second", "y_from_second", "angle")),
-        _planar,
+        sign(
+            '<rect x="-2.5" y="-8" width="7" height="16"/><path d="M-5 -15V15" class="axis"/>',
+            f'<rect x="-10.5" y="-10.5" width="21" height="21" rx="2"/><path d="{FOUR_ARROWS}" class="dot"/>',
+        ),
         Looks("second", ground="plane", turns=("first",), icon=(0.0, -1.0)),
         {"point-on-plane": ("d2.z",)},
         **WITH_AXIS,
@@ -268,7 +235,7 @@ KINDS = (
         "fixed",
         Composition((POINT, *PARALLEL, NO_SPIN)),
         _by_coordinates(kernels.FIXED),
-        _fixed,
+        sign('<rect x="-5.5" y="-5.5" width="11" height="11" class="solid"/>'),
         Looks(icon=END_ON),
         {"spherical": OF_POINT, "revolute": (*OF_POINT, "d1.xz", "d1.yz")},
         place=("point",),

@@ -224,11 +224,12 @@ class Looks:
 SIGN: Final = 6.5  # [pixels] of the signs of joints, which are those of textbooks
 
 
-def unknown(seen: bool) -> str:
-    """A thin circle."""
-    return f'<circle r="{SIGN}" class="thin"/>'
+def sign(side: str, end_on: str = "") -> Callable[[bool], str]:
+    """A sign in SVG, and what it is where its axis is seen end-on, if that is not the same."""
+    return lambda seen: side if seen else end_on or side
 
 
+THIN: Final = f'<circle r="{SIGN}" class="thin"/>'  # of kinds that have no sign
 # keys of a joint at a point with an axis
 WITH_AXIS: Final[dict[str, Any]] = {"place": ("point", "axis"), "may": ("x_axis",)}
 
@@ -254,7 +255,7 @@ class JointKind:
     type: str
     composition: Composition
     tree: TreeJoint | None = None
-    symbol: Callable[[bool], str] = unknown
+    symbol: Callable[[bool], str] = sign(THIN)
     looks: Looks = Looks()
     freer: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     without_turn: str = ""

@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
-from nivel.elements.joints.kind import Array, Combination, Composition, JointCoordinate, JointKind, Measured, TreeJoint
+from nivel.elements.joints.kind import (
+    Array,
+    Combination,
+    Composition,
+    JointCoordinate,
+    JointKind,
+    Measured,
+    TreeJoint,
+    sign,
+)
 from nivel.errors import Fault, ModelError, gathered, refuse
 from nivel.kernels.bodies.coordinate import ACROSS_Y, ACROSS_Z, ALONG, LEAN_X, LEAN_Y, TWIST
 from nivel.kernels.record import record as kernels
@@ -122,6 +131,7 @@ def _on_rail(name: str, kind: int, units: str = "m") -> Combination:
 ON_LINE = (_on_rail("across.y", ACROSS_Y), _on_rail("across.z", ACROSS_Z))
 WITH_LINE = (_on_rail("lean.x", LEAN_X, "1"), _on_rail("lean.y", LEAN_Y, "1"))
 KEY = _on_rail("twist", TWIST, "1")
+BENT = '<path d="M-17 4Q0 -4 17 4" class="axis"/>'  # a line that bends, on which they slide
 BLOCK, DOT = '<rect x="-8" y="-5" width="16" height="10"', '<circle r="4.2" class="solid"/>'
 LINE = '<path d="M0 -9.5V-4" class="axis"/>'
 PLACE_ON_BEAM = JointCoordinate(
@@ -138,16 +148,15 @@ def _slider(motion: int, *turns: str, turning: bool = False) -> TreeJoint:
     return TreeJoint(motion, units, turning=turning, coordinates=("displacement", *turns))
 
 
-def _sign(slider: str) -> Callable[[bool], str]:
-    """What slides on a line that bends."""
-    line = '<path d="M-17 4Q0 -4 17 4" class="axis"/>'
-    return lambda seen: f"{line}{slider}"
-
-
 def _sliding(word: str, rows: tuple[Combination, ...], tree: TreeJoint, slider: str) -> JointKind:
     """Of a body that a beam carries; its start is in `nivel.system.states.joint_start`."""
     return JointKind(
-        word, Composition((*ON_LINE, *rows), (PLACE_ON_BEAM,)), tree, _sign(slider), place=("point",), rail=True
+        word,
+        Composition((*ON_LINE, *rows), (PLACE_ON_BEAM,)),
+        tree,
+        sign(f"{BENT}{slider}"),
+        place=("point",),
+        rail=True,
     )
 
 
@@ -156,9 +165,6 @@ KINDS = (
     _sliding("keyed-on-beam", (KEY,), _slider(kernels.KEYED_ON_BEAM, "turn_1", "turn_2"), f"{DOT}{LINE}"),
     _sliding("cylindrical-on-beam", WITH_LINE, _slider(kernels.CYLINDRICAL_ON_BEAM, "turn"), f'{BLOCK} rx="2.5"/>'),
     _sliding(
-        "translational-on-beam",
-        (*WITH_LINE, KEY),
-        _slider(kernels.TRANSLATIONAL_ON_BEAM),
-        f'{BLOCK} class="solid"/>',
+        "translational-on-beam", (*WITH_LINE, KEY), _slider(kernels.TRANSLATIONAL_ON_BEAM), f'{BLOCK} class="solid"/>'
     ),
 )

@@ -56,12 +56,7 @@ class PythonLaw:
 
     def written(self) -> dict[str, Any]:
         """The law as a mapping of a machine file that holds the text itself."""
-        return {
-            "source": self.source,
-            "function": self.function,
-            "arguments": list(self.arguments),
-            "file": self.file,
-        }
+        return {"source": self.source, "function": self.function, "arguments": list(self.arguments), "file": self.file}
 
 
 def read_python_law(

@@ -22,9 +22,7 @@ def _readable(value: Any) -> Any:
 
 
 AnyQuantity = Annotated[
-    Any,
-    AfterValidator(_readable),
-    WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "string"}]}),
+    Any, AfterValidator(_readable), WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "string"}]})
 ]
 
 

@@ -318,15 +318,7 @@ class PythonOutput(StudyOutput):
             yield Problem((), "the text of the function is missing: write `python: outputs.py`")
 
 
-OUTPUTS: tuple[type[StudyOutput], ...] = (
-    Reduced,
-    FinalValue,
-    AtTime,
-    AtEvent,
-    EventTime,
-    ScalarOutput,
-    PythonOutput,
-)
+OUTPUTS: tuple[type[StudyOutput], ...] = (Reduced, FinalValue, AtTime, AtEvent, EventTime, ScalarOutput, PythonOutput)
 
 
 def _from_words(given: Any) -> Any:

@@ -63,11 +63,7 @@ class FactorPlan:
         return tuple(np.zeros(count, dtype) for count in (self.L_size, self.U_size, self.size, self.size + widest))  # pyright: ignore[reportReturnType]
 
 
-def plan_factor(
-    sizes: Sequence[int],
-    constraint: Sequence[bool],
-    couples: Iterable[tuple[int, int]],
-) -> FactorPlan:
+def plan_factor(sizes: Sequence[int], constraint: Sequence[bool], couples: Iterable[tuple[int, int]]) -> FactorPlan:
     """Plan the factors of a matrix of groups of unknowns, numbered one after the other.
 
     sizes : unknowns of each group; constraint : whether it is one of constraints; couples : pairs of groups with entries at (a, b) and

@@ -62,13 +62,7 @@ def refuse_dependent(chosen: Partition, wanted: Sequence[str], bodies: Sequence[
 
 
 def partition(
-    bodies: int,
-    rows: int,
-    rank: int,
-    size: float,
-    modal: Array = NO_MODES,
-    wanted: Sequence[int] = (),
-    turns: int = 3,
+    bodies: int, rows: int, rank: int, size: float, modal: Array = NO_MODES, wanted: Sequence[int] = (), turns: int = 3
 ) -> Partition:
     """For the velocities Ṙ and `turns` of rotation of each body, `rank` independent ones of `rows` rows and a machine of the length `size`
     [m]; none chosen yet.

@@ -285,8 +285,7 @@ def _friction(old: Record, blocks: list[tuple[int, ...]], rows: int, columns: in
     of_row = [block[0] for block in blocks]
     starts = np.searchsorted(of_row, range(rows, rows + len(old.friction.columns) + 1))
     return old.friction._replace(
-        block=index_array(list(pairwise(starts.tolist())), 2),
-        change=np.zeros((len(old.friction.columns), columns, 1)),
+        block=index_array(list(pairwise(starts.tolist())), 2), change=np.zeros((len(old.friction.columns), columns, 1))
     )
 
 

@@ -47,14 +47,14 @@ def test_the_pairs_are_those_that_masks_parents_and_exclusions_leave(path):
     assert any("contact" in each for each in apart.data["left_out"])
 
 
-@pytest.mark.parametrize(("balls", "integrator"), [(9, None), (12, "dopri5")])
-def test_models_with_many_contacts_that_can_stick_are_stepped_explicitly(balls, integrator, tmp_path):
+@pytest.mark.parametrize(("balls", "sides", "integrator"), [(9, 3, None), (12, 3, "dopri5"), (12, 1, "dopri5")])
+def test_models_with_many_contacts_are_stepped_explicitly(balls, sides, integrator, tmp_path):
     """n balls on the ground have n (n + 1)/2 contacts: 45 and 78."""
     bodies = "".join(
-        f'<body pos="{k} 0 .1"><freejoint/><geom name="ball_{k}" type="sphere" size=".1" mass="1"/></body>'
+        f'<body pos="{k} 0 .1"><freejoint/><geom name="ball_{k}" type="sphere" size=".1" mass="1" condim="{sides}"/></body>'
         for k in range(balls)
     )
-    ground = '<geom name="ground" type="plane" size="5 5 1"/>'
+    ground = f'<geom name="ground" type="plane" size="5 5 1" condim="{sides}"/>'
     path = tmp_path / "balls.xml"
     path.write_text(f"<mujoco><worldbody>{ground}{bodies}</worldbody></mujoco>", encoding="utf-8")
     found = read_model(path)

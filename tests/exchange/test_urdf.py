@@ -306,3 +306,65 @@ def test_what_is_wrong_with_a_translation_is_said_at_its_source(tmp_path):
         as_machine(translation.text(), str(tmp_path / "robot.yaml"), translation, str(path))
     with pytest.raises(nivel.ModelError, match="`include_paths` belong to MJCF files"):
         nivel.import_model(path, include_paths=[tmp_path])
+
+
+# two cranks that hang from the base and a coupler, which as the file places them do not meet: the second crank is turned by OFF
+CRANK, SPAN, OFF = 0.4, 0.7, 0.3
+MC, JC, MK, MB, JB = 1.1, 0.02, 2.3, 0.2, 0.01
+
+
+def four_bar(kind):
+    """Of frames by the names of onshape-to-robot, at points, or on a link between, as those of parallel robots are."""
+    first, second = ("closing_pin_1", "closing_pin_2") if kind == "3d" else ("closedloop_pin_A", "closedloop_pin_B")
+    between = [
+        link("bush", MB, inertia=(JB, JB, JB)),
+        joint("turn", "continuous", "coupler", "bush", f"{SPAN} 0 0"),
+    ]
+    return robot(
+        link("base"),
+        link("left", MC, f"0 0 {-CRANK / 2}", (JC, JC, JC)),
+        link("coupler", MK, f"{0.4 * SPAN} 0 0", (0.1, 0.1, 0.1)),
+        link("right", MC, f"0 0 {-CRANK / 2}", (JC, JC, JC)),
+        link(first),
+        link(second),
+        *(between if kind == "6d" else ()),
+        joint("a", "continuous", "base", "left"),
+        joint("b", "continuous", "left", "coupler", f"0 0 {-CRANK}"),
+        joint("c", "continuous", "base", "right", f"{SPAN} 0 0", rpy=f"0 {OFF} 0"),
+        joint(f"{first}_frame", "fixed", *(("bush", first) if kind == "6d" else ("coupler", first, f"{SPAN} 0 0"))),
+        joint(f"{second}_frame", "fixed", "right", second, f"0 0 {-CRANK}"),
+    )
+
+
+@pytest.mark.parametrize("kind", ["3d", "6d"])
+def test_frames_of_a_loop_close_it(kind, tmp_path):
+    """The coupler of a parallelogram goes along a circle: (2 J + m L²) φ'' = -(2 m_c L/2 + m L) g sin φ, J about the pins of the base;
+    what is between goes with it and turns with the second crank."""
+    mechanics = nivel.import_model(written(tmp_path, four_bar(kind))).mechanics()
+    (name,) = mechanics.names
+    away = {"a.angle": 0.0, "b.angle": 0.0, "c.angle": OFF, "turn.angle": OFF}[name]
+    phi = float(mechanics.start[mechanics.position_names.index(name)])
+    phi = away - phi if name in ("b.angle", "turn.angle") else away + phi
+    assert 0.01 < abs(phi) < OFF
+    mb, jb = (MB, JB) if kind == "6d" else (0.0, 0.0)
+    about = 2 * (JC + MC * CRANK**2 / 4) + (MK + mb) * CRANK**2 + jb
+    expected = -(MC + MK + mb) * CRANK * G * sin(phi) / about
+    found = mechanics.forward_dynamics(mechanics.start, [0.0], [0.0])[0]
+    assert abs(found) == pytest.approx(abs(expected), rel=1e-10)
+
+
+def test_a_file_beside_the_model_says_which_frames_close_a_loop_and_how(tmp_path):
+    text = four_bar("6d").replace("closedloop_pin_A", "one").replace("closedloop_pin_B", "two")
+    beside = tmp_path / "robot.yaml"
+    beside.write_text(
+        "closed_loop: [[one, two]]\ntype: [3d]\njoint_name: [turn]\njoint_type: [UJOINT_YZ]\n", encoding="utf-8"
+    )
+    found = data(tmp_path, text)
+    assert [each["type"] for each in found["joints"].values()].count("spherical") == 1
+    assert found["joints"]["turn"]["type"] == "universal"
+    beside.write_text("closed_loop: [[one, three]]\ntype: [6d]\n", encoding="utf-8")
+    with pytest.raises(nivel.ModelError, match=r"robot.yaml:1.*three"):
+        data(tmp_path, text)
+    beside.unlink()
+    alone = data(tmp_path, four_bar("3d").replace("closing_pin_2", "two"))
+    assert any("closing_pin_1" in each for each in alone["left_out"])

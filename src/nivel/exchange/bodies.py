@@ -140,8 +140,8 @@ def offset(mechanism: Mechanism) -> None:
         move_to(mechanism, each, wanted)
 
 
-def move_to(mechanism: Mechanism, each: Connection, wanted: float) -> None:
-    """Place what a revolute or translational joint carries where its coordinate is `wanted`."""
+def move_to(mechanism: Mechanism, each: Connection, wanted: float, beyond: set[str] | None = None) -> None:
+    """Place what a revolute or translational joint carries, the links `beyond` where they are known, where its coordinate is `wanted`."""
     way = wanted - each.placed
     if not way:
         return
@@ -149,7 +149,7 @@ def move_to(mechanism: Mechanism, each: Connection, wanted: float) -> None:
     turned = elementary_turn(axis, way) if each.kind == "revolute" else np.eye(3)
     shift = each.point - turned @ each.point if each.kind == "revolute" else way * axis
     motion = Frame(turned, shift)
-    beyond = set(carried(mechanism, each))
+    beyond = set(carried(mechanism, each)) if beyond is None else beyond
     for name in beyond:
         mechanism.links[name].place = motion @ mechanism.links[name].place
     for other in mechanism.connections:

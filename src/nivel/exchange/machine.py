@@ -28,8 +28,8 @@ from nivel.machine.core.placement import frame_from_axes
 
 NEARLY: Final = 2e-6  # [rad] between axes that a machine may take as parallel
 ROUND_OFF: Final = 1e-15  # [rad]
-MOST_STICKING: Final = 60  # contacts whose friction implicit methods have in their matrices, which are full
-MANY: Final = f"with more than {MOST_STICKING} contacts that can stick the method is dopri5: implicit ones would have large full matrices"
+MOST_TOUCHING: Final = 60  # contacts: implicit methods have those that stick in their matrices, which are full
+MANY: Final = f"with more than {MOST_TOUCHING} contacts the method is dopri5, whose steps cost less than those of implicit ones then"
 LIGHT: Final = "a link without mass between joints has 1e-15 of the mass that it carries: exact to round-off in relative coordinates"
 
 
@@ -50,7 +50,7 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
     joints = {
         mechanism.names.name("joint", each.name): _joint(each, mechanism)
         for each in mechanism.connections
-        if each.kind != "fixed"
+        if not each.lumps
     }
     refuse(mechanism.faults)
     if not bodies:
@@ -65,7 +65,7 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
         moved = carried(mechanism, each)
         effective = inertia_about(mechanism, moved, each.point, each.axes[0] if each.coordinate == "angle" else None)
         at_joint[each.name] = effective + each.armature
-        if each.kind != "fixed":
+        if not each.lumps:
             joint = mechanism.names.name("joint", each.name)
             joints[joint] |= joint_forces.parts_of(each, effective + each.armature, mechanism)
             for made in ("stop", "friction"):
@@ -126,7 +126,7 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
     settings: dict[str, Any] = {} if mechanism.step is None or contacts else {"step": mechanism.step}
     if any(LIGHT in each for each in mechanism.notes.changed):
         settings["coordinates"] = "relative"
-    if sum("friction" in each for each in contacts.values()) > MOST_STICKING:
+    if len(contacts) > MOST_TOUCHING:
         settings["integrator"] = "dopri5"
         mechanism.notes.change(MANY)
     data |= {"simulation": settings} if settings else {}
@@ -155,13 +155,13 @@ def _lines(mechanism: Mechanism) -> dict[str, tuple[int, str]]:
 
 def _is_tree(mechanism: Mechanism) -> bool:
     """Whether no body is the second of two joints."""
-    second = [mechanism.groups[each.bodies[1]].first for each in mechanism.connections if each.kind != "fixed"]
+    second = [mechanism.groups[each.bodies[1]].first for each in mechanism.connections if not each.lumps]
     return len(second) == len(set(second))
 
 
 def _has_free_root(mechanism: Mechanism) -> bool:
     """Whether a body that carries others is the second of no joint."""
-    second = {mechanism.groups[each.bodies[1]].first for each in mechanism.connections if each.kind != "fixed"}
+    second = {mechanism.groups[each.bodies[1]].first for each in mechanism.connections if not each.lumps}
     return any(mechanism.groups[each.bodies[0]].first not in second | {WORLD} for each in mechanism.connections)
 
 
@@ -229,9 +229,7 @@ def _bodies(mechanism: Mechanism, drawing: Drawing) -> tuple[dict[str, Any], lis
 
 
 def _without_joints(mechanism: Mechanism) -> set[str]:
-    joined = {
-        mechanism.groups[name].first for each in mechanism.connections if each.kind != "fixed" for name in each.bodies
-    }
+    joined = {mechanism.groups[name].first for each in mechanism.connections if not each.lumps for name in each.bodies}
     return {group.first for group in mechanism.groups.values()} - joined
 
 
@@ -241,7 +239,7 @@ def _light(mechanism: Mechanism, first: str) -> Inertial:
     beyond = [
         name
         for each in mechanism.connections
-        if mechanism.groups[each.bodies[0]].first == first and each.kind != "fixed"
+        if mechanism.groups[each.bodies[0]].first == first and not each.lumps
         for name in carried(mechanism, each)
     ]
     mass = inertia_about(mechanism, beyond, np.zeros(3), None)

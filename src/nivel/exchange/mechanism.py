@@ -120,6 +120,11 @@ class Connection:
     line: int = 0
 
     @property
+    def lumps(self) -> bool:
+        """Whether it makes both links one body."""
+        return self.kind == "fixed" and self.frames is None
+
+    @property
     def coordinate(self) -> str:
         """Name of its only joint coordinate, or an empty text."""
         return {"revolute": "angle", "translational": "displacement", "screw": "angle"}.get(self.kind, "")
@@ -273,7 +278,7 @@ class Mechanism:
             return name
 
         for each in self.connections:
-            if each.kind != "fixed":
+            if not each.lumps:
                 continue
             first, second = map(root, each.bodies)
             if second == WORLD:

@@ -14,6 +14,7 @@ from nivel.exchange.mjcf import read_mjcf
 from nivel.exchange.sdf import read_sdf
 from nivel.exchange.translation import Names, Notes, Translation, triple
 from nivel.exchange.urdf import read_urdf
+from nivel.exchange.urdf_loops import close_loops
 from nivel.files.outline import FORMAT
 from nivel.files.reader import parse_machine
 from nivel.files.sources import read_bytes
@@ -140,7 +141,9 @@ def _mechanism(
         case _ if include_paths:
             raise ModelError(f"{file}: `include_paths` belong to MJCF files; meshes of others are in `package_paths`")
         case "robot":
-            return read_urdf(document, base, contacts)
+            mechanism = read_urdf(document, base, contacts)
+            close_loops(mechanism, Path(file))
+            return mechanism
         case "sdf":
             return read_sdf(document, base, contacts)
     message = f"<{root.tag}> is no model that is read; there are <robot> (URDF), <sdf> and <mujoco> (MJCF)"

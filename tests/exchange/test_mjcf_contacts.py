@@ -157,23 +157,22 @@ def test_what_rebounds_in_mujoco_is_left_out_by_name(reference, tmp_path):
     assert ("rebound of contacts: floor and skin" in machine.record.left_out) == (left > 0.05), left
 
 
-def test_a_ball_rests_where_the_margins_of_its_contact_hold_it(tmp_path):
-    """As in MuJoCo, and by the same distance above the plane as a ball without margins; between balls margins are left out, by name."""
-    ball = '<body pos="{0} 0 .2"><freejoint/><geom name="{1}" size=".1" {2}/></body>'
-    bodies = ball.format(0, "near", "") + ball.format(1, "far", 'margin=".015"')
-    text = (
-        f'<mujoco><worldbody><geom name="floor" type="plane" size="5 5 1" margin=".01"/>{bodies}</worldbody></mujoco>'
-    )
+def test_balls_and_capsules_rest_where_the_margins_of_their_contacts_hold_them(tmp_path):
+    """As in MuJoCo, where the margins are the distances above the plane and the box; between boxes margins are left out, by name."""
+    body = '<body pos="{0} {1}"><freejoint/><geom name="{2}" {3} mass="4"/></body>'
+    bodies = body.format(0, "0 .2", "near", 'size=".1"') + body.format(1, "0 .2", "far", 'size=".1" margin=".015"')
+    bodies += body.format(3, "0 .3", "high", 'size=".1" margin=".02"')
+    bodies += body.format(3.2, ".2 .3", "bar", 'type="capsule" size=".1 .05" euler="0 90 0"')
+    bodies += body.format(9, "0 .1", "crate", 'type="box" size=".1 .1 .1"')
+    shelf = '<geom name="shelf" type="box" pos="3 0 0" size=".5 .5 .1" margin=".01"/>'
+    floor = '<geom name="floor" type="plane" size="5 5 1" margin=".01"/>'
+    text = f"<mujoco><worldbody>{floor}{shelf}{bodies}</worldbody></mujoco>"
     (tmp_path / "balls.xml").write_text(text, encoding="utf-8")
     model = mj.MjSpec.from_string(text).compile()
     data = mj.MjData(model)
     for _ in range(int(2.0 / model.opt.timestep)):
         mj.mj_step(model, data)
     machine = nivel.import_model(tmp_path / "balls.xml", contacts="floor")
-    height = machine.simulate(duration=2.0, verify=False).array("position")[-1, :, 2]
-    np.testing.assert_allclose(height, data.qpos[[2, 9]], atol=2e-4)
-    np.testing.assert_allclose(height, 0.1 + data.contact.includemargin, atol=1e-3)
-    assert any(
-        "margins of contacts: near and far" in each
-        for each in nivel.import_model(tmp_path / "balls.xml").record.left_out
-    )
+    height = machine.simulate(duration=2.0, verify=False).array("position")[-1, :4, 2]
+    np.testing.assert_allclose(height, data.qpos[[2, 9, 16, 23]], atol=2e-4)
+    assert any("margins of contacts: shelf and crate" in each for each in machine.record.left_out)

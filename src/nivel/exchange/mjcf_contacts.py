@@ -23,7 +23,7 @@ DEEP: Final = 0.01  # of the size of the model: solids that begin deeper in each
 INSIDE: Final = "contacts of solids that begin deep inside each other"
 MARGINS, DIRECTIONS, REBOUND = "margins of contacts", "friction of contacts by direction", "rebound of contacts"
 LITTLE: Final = 0.9  # damping ratio below which more than 5 % of the speed of an impact is left in MuJoCo
-RAISED: Final = "planes are raised by the margins of their contacts"
+WIDENED: Final = "planes are raised, and round solids widened, by the margins of their contacts"
 TURNS: Final = "friction of contacts against rolling has a limit of its own, that of MuJoCo shares one with sliding"
 
 
@@ -58,9 +58,12 @@ def read_contacts(
             continue
         margins = m.geom_margin[[first, second]] if given is None else m.pair_margin[[given]]
         margin = float(np.sum(margins) if summed else np.max(margins))
-        if margin and planes:
-            one, two = (_raised(each, margin) if each.look.kind == "plane" else each for each in (one, two))
-            mechanism.notes.change(RAISED, f"{one.name} and {two.name}")
+        kinds = [each.look.kind for each in (one, two)]
+        wide = next((kind for kind in ("plane", "sphere", "capsule") if kind in kinds), "")
+        if margin and wide:
+            widened = [_widened(one, margin), two] if kinds[0] == wide else [one, _widened(two, margin)]
+            mechanism.notes.change(WIDENED, f"{one.name} and {two.name}")
+            one, two = widened
         elif margin:
             mechanism.notes.leave(MARGINS, f"{one.name} and {two.name}", acts=True)
         mechanism.solids |= {one.name: one, two.name: two}
@@ -82,11 +85,14 @@ def _are_summed(mj: Any) -> bool:
     return bool(d.contact.includemargin[0] > 1.5)
 
 
-def _raised(plane: Solid, margin: float) -> Solid:
-    """A plane where a geom that touches it from the distance `margin` [m] on begins to."""
-    place = plane.look.place @ Frame(origin=np.array([0.0, 0.0, margin]))
-    name = f"{plane.name}_{margin * 1e3:g}mm".replace(".", "_")
-    return replace(plane, name=name, look=replace(plane.look, place=place))
+def _widened(solid: Solid, margin: float) -> Solid:
+    """A plane or a round solid whose surface is where what touches it from the distance `margin` [m] on begins to."""
+    look = solid.look
+    if look.kind == "plane":
+        look = replace(look, place=look.place @ Frame(origin=np.array([0.0, 0.0, margin])))
+    else:
+        look = replace(look, sizes=(look.sizes[0] + margin, *look.sizes[1:]))
+    return replace(solid, name=f"{solid.name}_{margin * 1e3:g}mm".replace(".", "_"), look=look)
 
 
 def kind_of(mj: Any, m: Any, g: int) -> str:

@@ -1,16 +1,21 @@
 """The method of a machine that names none: chosen steps, an implicit method from where they become stiff, and a second choice."""
 
 from itertools import count
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from nivel import load
+from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run import attempt as second_run
+from nivel.analysis.run import simulate as simulation
 from nivel.errors import ModelError
 from nivel.files.reader import parse_machine
 from nivel.files.writer import write_machine
 from simulating import G, hinge, machine, simulate, slide, solid
 
+EXAMPLES = Path(__file__).parents[3] / "examples"
 SHORT = {"duration": 0.2}
 STIFF = {"type": "joint-spring-damper", "coordinate": "rail", "stiffness": 1e8, "damping": 1e5}
 PAD = {"type": "contact", "body": "ball", "plane": "floor", "stiffness": 1e8, "restitution": 0.5}
@@ -153,6 +158,38 @@ def cantilever():
 def test_a_beam_has_the_method_of_vibrations():
     found = cantilever().check()
     assert (found.settings.integrator, found.reason) == ("generalised-alpha", "beams have rates beyond all steps")
+
+
+@pytest.mark.parametrize(("given", "step"), [({}, 0.06), ({"output_interval": 0.25}, 0.05), ({"step": 2e-3}, 2e-3)])
+def test_a_long_run_of_beams_begins_with_a_thousandth_of_it(given, step):
+    record = cantilever().record
+    plan = plan_run(record.with_simulation(record.simulation.replace(duration=60.0, **given)))
+    assert plan.settings.step == pytest.approx(step, rel=1e-12)
+    other = record.with_simulation(record.simulation.replace(duration=60.0, integrator="generalised-alpha"))
+    assert plan_run(other).settings.step == 1e-3
+
+
+def test_waves_in_lines_are_met_by_steps():
+    """Samples of 0.5 ms, which no step of 1 ms shows; the water hammer is as green as with the step of its file."""
+    record = load(EXAMPLES / "hydraulics" / "water-hammer.yaml").record
+    plan = plan_run(record.replace(simulation=type(record.simulation)(duration=1.0)))
+    assert (plan.settings.integrator, plan.settings.step) == ("extrapolated-euler", 5e-4)
+
+
+def test_other_choices_together_do_three_times_the_work_of_the_first(monkeypatch):
+    """The beam that swings under its weight is not green with its first steps."""
+    monkeypatch.setattr(second_run, "LEAST_WORK", 0.0)
+    done, one = [], simulation.attempt
+
+    def noted(*given):
+        done.append(one(*given))
+        return done[-1]
+
+    monkeypatch.setattr(simulation, "attempt", noted)
+    cantilever().simulate(duration=0.02, verify=True)
+    work = [simulation._work_of(each) for each in done]
+    assert len(work) > 1
+    assert sum(work[1:]) <= 3.0 * work[0]
 
 
 def test_steps_of_one_cost_where_a_machine_is_stepped():

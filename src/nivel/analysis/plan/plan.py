@@ -5,8 +5,8 @@ from typing import Final
 
 from nivel.analysis.plan import choice
 from nivel.analysis.plan.beam_facts import integrator_of
-from nivel.analysis.plan.choice import choose_coordinates, refuse_combinations
-from nivel.analysis.plan.settings import RunSettings, complete
+from nivel.analysis.plan.choice import choose_coordinates
+from nivel.analysis.plan.settings import RunSettings, complete, refuse_combinations
 from nivel.elements.contacts.contact import Contact, Contacts
 from nivel.elements.forces.friction import Friction
 from nivel.errors import Fault, ModelError, refuse

@@ -10,7 +10,7 @@ start, but of beams, whose vibrations it would follow. The choice whose report i
 import json
 import time
 from collections.abc import Iterator
-from math import ceil
+from math import ceil, inf
 from os import PathLike
 from typing import Final
 
@@ -20,7 +20,16 @@ from nivel.analysis.plan.plan import Plan, other_run
 from nivel.analysis.preparation.attributes import run_attributes, settings_in_json
 from nivel.analysis.progress.log import Listener, Progress
 from nivel.analysis.progress.pacing import terminable
-from nivel.analysis.run.attempt import TENTH, Attempt, Options, SecondRun, attempt, header_of, most_work, resampled
+from nivel.analysis.run.attempt import (
+    TENTH,
+    Attempt,
+    Options,
+    SecondRun,
+    attempt,
+    header_of,
+    most_work,
+    resampled,
+)
 from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.prepared_state import prepare
 from nivel.errors import ModelError, SolveError
@@ -60,9 +69,8 @@ FAILED: Final = "no method is named, and steps that follow the motion come to no
 BRANCHED: Final = "no method is named, and steps that follow the motion turn where it branches"
 # Fixed steps are divided by so much at most; the error is to be this much below what is green.
 MOST_PARTS, MARGIN = 16, 1.5
-# Work grows by this power of the number of steps (measured 0.1 to 0.7), as shorter ones need fewer iterations: what is not affordable is
-# not begun.
-GROWTH = 0.75
+# They are divided, and tolerances are, again where that leaves less than this share of what was not green.
+LESS = 0.5
 
 
 class Try(Struct):
@@ -78,68 +86,114 @@ class Try(Struct):
 
 
 def second_choice(first: Attempt, options: Options, *, judge: bool) -> tuple[Attempt, Trust | None]:
-    """The best choice and its trust report, where it is judged already.
-
-    Other choices end where they do more work than the second run may. judge : there is a report.
-    """
+    """The best choice and its trust report, where it is judged already. judge : there is a report."""
     finished = first.finished
     if not first.plan.is_open or finished.asked_to_stop or finished.outcome == "interrupted":
         return first, None
     if finished.outcome == "failed":
         return _instead_of_failed(first, options), None
     trust = assess(first.run) if judge and first.verified is not None else None
-    if trust is None:
+    if trust is None or first.plan.asked is None:
         return first, None
-    best, tries = (first, trust), [_tried(first, trust)]
-    most = most_work(finished.work, len(first.prepared.start))
-    choices = _choices(first, trust, replace(options, most=most))
-    while _open_lines(best[1]) and (choice := next(choices, None)) is not None:
+    tries, choices = [_tried(first, trust)], Choices(first.plan, options, [(first, trust)])
+    others = choices.others()
+    while _open_lines(choices.best[1]) and (choice := next(others, None)) is not None:
         if choice.finished.outcome != "done" or choice.verified is None:
             tries.append(Try(in_words(choice.plan), {}, _why_not(choice)))
             continue
-        other = assess(choice.run)
-        tries.append(_tried(choice, other))
-        best = min(best, (choice, other), key=lambda each: _badness(each[1]))
-    return best[0], _with_tries(best[1], tries, best[0].plan)
+        choices.judged.append((choice, assess(choice.run)))
+        tries.append(_tried(*choices.judged[-1]))
+    best, trust = choices.best
+    return best, _with_tries(trust, tries, best.plan)
 
 
-def _choices(first: Attempt, trust: Trust, options: Options) -> Iterator[Attempt]:
-    """Other choices, made when they are asked for."""
-    plan = first.plan
-    if plan.asked is None:
-        return
-    asked = plan.asked.simulation.model_fields_set
-    if any(item.name == "branch" and item.verdict != "green" for item in trust.items):
-        passing = other_run(plan, OF_FIXED_STEPS)
-        if passing is not None and (choice := _started(replace(passing, reason=BRANCHED), options)) is not None:
+class Choices:
+    """Other choices of a run, which together do no more than MOST_TIMES the work of the first one. judged : those that came to their end,
+    with their reports; the first one at the start. left : work that the next ones may do."""
+
+    def __init__(self, plan: Plan, options: Options, judged: list[tuple[Attempt, Trust]]) -> None:
+        assert plan.asked is not None
+        self.plan, self.options, self.judged = plan, options, judged
+        self.asked, first = plan.asked, judged[0][0]
+        # of beams the usual steps, which may be shorter than the first ones
+        longer = (
+            1.0 if plan.settings.tolerance is not None else max(1.0, plan.settings.step / self.asked.simulation.step)
+        )
+        self.left = most_work(longer * _work_of(first), len(first.prepared.start))
+        self.share = first.finished.work / max(_work_of(first), 1)  # of a choice's work, before it is verified
+
+    @property
+    def best(self) -> tuple[Attempt, Trust]:
+        """The one whose report is best so far."""
+        return min(self.judged, key=lambda each: _badness(each[1]))
+
+    def others(self) -> Iterator[Attempt]:
+        """They are made when they are asked for."""
+        plan, asked, (first, trust) = self.plan, self.asked.simulation.model_fields_set, self.judged[0]
+        if any(item.name == "branch" and item.verdict != "green" for item in trust.items):
+            yield from self._started(other_run(plan, OF_FIXED_STEPS), BRANCHED)
+        if "states" in _open_lines(trust):
+            scales = {each.place[1]: each.largest for each in look_at_states(first.run)}
+            scaled = replace(plan, asked=with_scales(self.asked, scales))
+            yield from self._started(other_run(scaled, plan.settings.integrator))
+        if "tolerance" in asked:
+            return
+        if plan.settings.tolerance is not None:
+            yield from self._finer()
+        elif "step" not in asked:
+            yield from self._shorter()
+        usual = (FOR_STIFF, USUAL_TOLERANCE)
+        if (plan.settings.integrator, plan.settings.tolerance) != usual and not plan.machine.beams:
+            yield from self._started(other_run(plan, FOR_STIFF), AT_LAST)
+
+    def _finer(self) -> Iterator[Attempt]:
+        """Second runs as results, as long as each is much better than the one before."""
+        (last, report), before = self.judged[0], inf
+        while _excess(report) < LESS * before and self.left > 0.0 and last.plan.settings.tolerance is not None:
+            plan = other_run(self.plan, self.plan.settings.integrator, tolerance=TENTH * last.plan.settings.tolerance)
+            choice = None if plan is None else _verified_anew(last, plan, self.options)
+            if choice is None:
+                return
+            self.left -= _work_of(choice) - choice.finished.work
             yield choice
-    if "states" in _open_lines(trust):
-        small = look_at_states(first.run)
-        scaled = with_scales(plan.asked, {each.place[1]: each.largest for each in small})
-        other = other_run(replace(plan, asked=scaled), plan.settings.integrator)
-        if other is not None and (choice := _started(replace(other, asked=plan.asked), options)) is not None:
-            yield choice
-    if "tolerance" in asked:
-        return
-    if plan.settings.tolerance is not None:
-        finer = other_run(plan, plan.settings.integrator, tolerance=TENTH * plan.settings.tolerance)
-        if finer is not None and (choice := _finer(first, finer, options)) is not None:
-            yield choice
-    elif "step" not in asked:
-        order = INTEGRATORS[plan.settings.integrator].order
-        wanted = max(2, ceil((MARGIN * _excess(trust)) ** (1.0 / order)))
-        parts = min(MOST_PARTS, wanted, int((options.most / max(first.finished.work, 1)) ** (1.0 / GROWTH)))
-        finer = other_run(plan, plan.settings.integrator, step=plan.settings.step / parts) if parts > 1 else None
-        if finer is not None:
-            yield _run(finer, options)
-    usual = (FOR_STIFF, USUAL_TOLERANCE)
-    if (plan.settings.integrator, plan.settings.tolerance) != usual and not plan.machine.beams:
-        last = other_run(plan, FOR_STIFF)
-        if last is not None and (choice := _started(replace(last, reason=AT_LAST), options)) is not None:
+            if self.judged[-1][0] is not choice:
+                return
+            before, (last, report) = _excess(report), self.judged[-1]
+
+    def _shorter(self) -> Iterator[Attempt]:
+        """Shorter fixed steps: as short as the lines that are not green ask for, the usual ones at first, and as work allows."""
+        (last, report), before = self.judged[0], inf
+        usual, order = self.asked.simulation.step, INTEGRATORS[self.plan.settings.integrator].order
+        while (longer := round(last.plan.settings.step / usual, 6)) > 1.0 or _excess(report) < LESS * before:
+            wanted = max(2, ceil((MARGIN * _excess(report)) ** (1.0 / order)))
+            parts = min(
+                MOST_PARTS, wanted, int(self.left / max(_work_of(last), 1)), ceil(longer) if longer > 1.0 else wanted
+            )
+            if parts < 2:
+                return
+            step = last.plan.settings.step / parts
+            yield from self._started(other_run(self.plan, self.plan.settings.integrator, step=step))
+            if self.judged[-1][0].plan.settings.step != step:
+                return
+            before, (last, report) = _excess(report), self.judged[-1]
+
+    def _started(self, plan: Plan | None, reason: str = "") -> Iterator[Attempt]:
+        """A run of its own, in memory; none where the machine cannot be prepared for it."""
+        if plan is None:
+            return
+        plan = replace(plan, asked=self.asked, reason=reason or plan.reason)
+        choice = _run(plan, replace(self.options, most=self.left * self.share))
+        if choice is not None:
+            self.left -= _work_of(choice)
             yield choice
 
 
-def _finer(first: Attempt, plan: Plan, options: Options) -> Attempt | None:
+def _work_of(choice: Attempt) -> int:
+    """Work of a run and of the one that verifies it."""
+    return choice.finished.work + (choice.verified.finished.work if choice.verified is not None else 0)
+
+
+def _verified_anew(first: Attempt, plan: Plan, options: Options) -> Attempt | None:
     """The second run as the result of a run of this plan, with a third one that verifies it; None where that was not whole."""
     second = first.verified
     if second is None or second.ended or first.found is not None or second.finished.pace is None:
@@ -153,17 +207,12 @@ def _finer(first: Attempt, plan: Plan, options: Options) -> Attempt | None:
     return Attempt(plan, second.prepared, second.finished, second.result, second.frames, verified)
 
 
-def _run(plan: Plan, options: Options) -> Attempt:
-    """A run of its own, in memory."""
-    build(run_entries(plan), options.listener)
-    options.listener.say(f"once more with {in_words(plan)}")
-    return attempt(plan, Memory(plan.settings.frames + 1), options, prepare(plan.methods))
-
-
-def _started(plan: Plan, options: Options) -> Attempt | None:
-    """The same; None where the machine cannot be prepared for it."""
+def _run(plan: Plan, options: Options) -> Attempt | None:
+    """A run of its own, in memory; None where the machine cannot be prepared for it."""
     try:
-        return _run(plan, options)
+        build(run_entries(plan), options.listener)
+        options.listener.say(f"once more with {in_words(plan)}")
+        return attempt(plan, Memory(plan.settings.frames + 1), options, prepare(plan.methods))
     except (ModelError, SolveError):
         return None
 
@@ -176,7 +225,7 @@ def _instead_of_failed(first: Attempt, options: Options) -> Attempt:
         return first
     for name in (FOR_STIFF, OF_FIXED_STEPS):
         other = None if plan.settings.integrator == name else other_run(plan, name)
-        choice = None if other is None else _started(replace(other, reason=FAILED), options)
+        choice = None if other is None else _run(replace(other, reason=FAILED), options)
         if choice is not None and choice.finished.outcome != "failed":
             return choice
     return first

@@ -14,18 +14,11 @@ from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Assembled, Prepared, SharedLoads, prepare
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.progress.pacing import interruptible, terminable
+from nivel.analysis.statics import linear
 from nivel.analysis.statics.critical import CriticalPoint, critical_points, is_mechanism, softest
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.frames import Facts, FrameWriter
 from nivel.analysis.statics.free_coordinates import for_statics, loaded_free
-from nivel.analysis.statics.linear import (
-    PivotError,
-    buckling_factors,
-    has_potential,
-    lowest,
-    unstable_directions,
-    vibrations,
-)
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads
 from nivel.analysis.statics.rigid_motions import of_whole
@@ -147,8 +140,8 @@ class Walk:
             held = depends_on_samples(equations, point.state)
             count = NOT_JUDGED if held else growing_motions(equations, point.state)
         else:
-            count = unstable_directions(point.found.tangent)
-            self.without_potential |= not has_potential(point.found.tangent)
+            count = linear.unstable_directions(point.found.tangent)
+            self.without_potential |= not linear.has_potential(point.found.tangent)
         if self.points and self.counts[-1] != count and not equations.states_move:
             counts = self.counts[-1], count
             critical = critical_points(equations, self.points[-1], point, counts, self._iteration)
@@ -171,8 +164,8 @@ class Walk:
         restless = restlessness(equations, state) if equations.states_move else 0.0
         found = None
         if self.settings.modes:
-            with suppress(PivotError):
-                found = vibrations(tangent, self.settings.modes)
+            with suppress(linear.PivotError):
+                found = linear.vibrations(tangent, self.settings.modes)
                 self.rigid = max(self.rigid, found.rigid)
         rounded = equations.round_off(tangent, state)
         # loads that are round-off themselves are none
@@ -184,8 +177,8 @@ class Walk:
         """Times at which linear extrapolation of the tangents of the first and the last equilibrium loses its stiffness."""
         first, last = self.points[0].found, self.points[-1].found
         try:
-            factors, directions = buckling_factors(first.tangent, last.tangent, self.settings.buckling)
-        except PivotError:
+            factors, directions = linear.buckling_factors(first.tangent, last.tangent, self.settings.buckling)
+        except linear.PivotError:
             message = "the first equilibrium has no positive stiffness, so no buckling loads follow from it"
             self._fail((message, "Give the machine stiffness, or stabilising loads, at t = 0."))
             return
@@ -201,8 +194,8 @@ class Walk:
             return None
         try:
             last = self.points[-1].found.tangent
-            drawn, loaded = (lowest(each, 1, each.M)[0] for each in (self.equations.tangent(self.start), last))
-        except (PivotError, StateError, np.linalg.LinAlgError):
+            drawn, loaded = (linear.lowest(each, 1, each.M)[0] for each in (self.equations.tangent(self.start), last))
+        except (linear.PivotError, StateError, np.linalg.LinAlgError):
             return None
         return Stiffness(float(drawn[0]), float(loaded[0])) if len(drawn) and len(loaded) else None
 
@@ -294,7 +287,7 @@ def _with_other_elements(
         other.sink.begin(Header(other.writer.layout, {}))
         other.go(Listener())
         its = other.stiffness() if other.points else None
-    except (ModelError, SolveError, PivotError) as error:
+    except (ModelError, SolveError, linear.PivotError) as error:
         why = str(error)
     if other is not None and other.outcome == "interrupted":
         walk.outcome = "interrupted"

@@ -11,18 +11,8 @@ from nivel.analysis.plan.settings import with_usual_frames
 from nivel.errors import Fault, ModelError, retold
 from nivel.lazy import Struct, field
 from nivel.machine.core.vectors import Array
+from nivel.machine.study import parameter
 from nivel.machine.study.any_quantity import another_measure
-from nivel.machine.study.parameter import (
-    SCALAR,
-    AtEvent,
-    AtTime,
-    EventTime,
-    FinalValue,
-    Output,
-    PythonOutput,
-    ScalarOutput,
-    said_output,
-)
 from nivel.model import Model
 from nivel.results.analyses.efforts import Efforts
 from nivel.results.analyses.linear_model import LinearModel
@@ -62,7 +52,7 @@ class OutputFailedError(Exception):
     """A function of the user failed."""
 
 
-def outputs_of(found: Found, outputs: Mapping[str, Output]) -> dict[str, Number]:
+def outputs_of(found: Found, outputs: Mapping[str, parameter.Output]) -> dict[str, Number]:
     """The numbers by output; not a number where there is none.
 
     Raises ModelError, with the path of the key that is at fault, OutputFailedError.
@@ -78,26 +68,26 @@ def outputs_of(found: Found, outputs: Mapping[str, Output]) -> dict[str, Number]
     return numbers
 
 
-def check_function(output: PythonOutput) -> None:
+def check_function(output: parameter.PythonOutput) -> None:
     """Raise ModelError where the text has no such function, or a limit measures something else than its number."""
     _function(output.source, output.function, output.file)
     _check_limits(output, output.units)
 
 
-def _number(found: Found, output: Output) -> Number:
+def _number(found: Found, output: parameter.Output) -> Number:
     match output:
-        case PythonOutput():
+        case parameter.PythonOutput():
             return Number(_called(output, found), output.units)
-        case ScalarOutput():
+        case parameter.ScalarOutput():
             return _scalar(found, output.of)
-        case EventTime():
+        case parameter.EventTime():
             return Number(_event_time(found, output.event), "s")
-        case FinalValue():
+        case parameter.FinalValue():
             values, units = history_of(found, output.of)
             return Number(float(values.value[-1, 0]) if len(values.time) else np.nan, units)
-        case AtTime():
+        case parameter.AtTime():
             return _at(history_of(found, output.of), output.time)
-        case AtEvent():
+        case parameter.AtEvent():
             return _at(history_of(found, output.of), _event_time(found, output.event))
     history, units = history_of(found, output.of)
     part = _window(history, output.start, output.end)
@@ -148,14 +138,14 @@ def said_number(said: Said) -> Callable[[Found], float]:
     """What reads an output in words (`said_output`) from a result, or a function of the user. Raises ModelError for words that are none."""
     if callable(said):
         return lambda found: float(said(found))
-    output = said_output(said)
+    output = parameter.said_output(said)
     return lambda found: _number(found, output).value
 
 
 def event_of(said: Said) -> str:
     """The event whose time was said; empty for other outputs."""
-    output = None if callable(said) else said_output(said)
-    return output.event if isinstance(output, EventTime) else ""
+    output = None if callable(said) else parameter.said_output(said)
+    return output.event if isinstance(output, parameter.EventTime) else ""
 
 
 def at_times(found: Found, name: str, times: Array) -> Array:
@@ -175,7 +165,7 @@ def units_of(found: Found, name: str) -> str:
 
 
 def _is_scalar(found: Found, name: str) -> bool:
-    return isinstance(found, LinearModel) or SCALAR.fullmatch(name) is not None
+    return isinstance(found, LinearModel) or parameter.SCALAR.fullmatch(name) is not None
 
 
 def _scalar(found: Found, name: str) -> Number:
@@ -254,7 +244,7 @@ def _integrated(units: str) -> str:
     return units.removesuffix("/s") if units.endswith("/s") else f"{units} s"
 
 
-def _check_limits(output: Output, units: str) -> None:
+def _check_limits(output: parameter.Output, units: str) -> None:
     """Raise ModelError where a limit measures something else than the number."""
     for key in ("at_least", "at_most"):
         limit = getattr(output, key)
@@ -276,7 +266,7 @@ def _function(source: str, name: str, file: str) -> Any:
     return names[name]
 
 
-def _called(output: PythonOutput, found: Found) -> float:
+def _called(output: parameter.PythonOutput, found: Found) -> float:
     function = _function(output.source, output.function, output.file)
     try:
         return float(function(found))
@@ -297,7 +287,7 @@ class Task(Struct):
     machine: Model
     analysis: str = "run"
     settings: Mapping[str, Any] = field(default_factory=dict)
-    outputs: Mapping[str, Output] = field(default_factory=dict)
+    outputs: Mapping[str, parameter.Output] = field(default_factory=dict)
     save: tuple[str, ...] = ()
     verify: bool = False
     time_limit: float | None = None
@@ -310,9 +300,9 @@ class Task(Struct):
             object.__setattr__(self, "machine", with_usual_frames(self.machine))
 
 
-def only_numbers(outputs: Mapping[str, Output]) -> bool:
+def only_numbers(outputs: Mapping[str, parameter.Output]) -> bool:
     """Whether there are outputs, of which none is a function of the user, which sees frames."""
-    return bool(outputs) and not any(isinstance(each, PythonOutput) for each in outputs.values())
+    return bool(outputs) and not any(isinstance(each, parameter.PythonOutput) for each in outputs.values())
 
 
 def usual_names(result: Result) -> tuple[str, ...]:

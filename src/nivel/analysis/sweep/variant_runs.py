@@ -16,17 +16,8 @@ from nivel.analysis.run.attempt import header_of
 from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.lanes import LaneLoop, unfit
 from nivel.analysis.run.simulate import close_run, simulate
+from nivel.analysis.sweep import patched
 from nivel.analysis.sweep.outputs import Found
-from nivel.analysis.sweep.patched import (
-    BUDGET_OF_ALL,
-    PatchedRuns,
-    Patches,
-    TooLongError,
-    UnsuitedError,
-    learn,
-    read_values,
-    watch,
-)
 from nivel.errors import ModelError, NivelError, SolveError, refuse
 from nivel.integrate.loop.run import BUDGET, FRAMES, STOPPED
 from nivel.judge.after.subject import run_of
@@ -49,18 +40,18 @@ TRIED: Final = 32
 class LaneRuns:
     """Runs of variants in lanes. loop_seconds : of each of those that ran last. tried, kept : how many of all so far."""
 
-    def __init__(self, runs: PatchedRuns, seconds: float, listener: Listener) -> None:
+    def __init__(self, runs: patched.PatchedRuns, seconds: float, listener: Listener) -> None:
         """seconds : what single runs of all variants take, by which machine code may be worth compiling. Raises UnsuitedError."""
         blank = runs.blank
         if why := unfit(blank.prepared, blank.plan.settings, blank.run):
-            raise UnsuitedError(why)
+            raise patched.UnsuitedError(why)
         entries = runs.blank.loop.entries_on("packed")
         if seconds < WORTH_COMPILING and missing(entries):
-            raise UnsuitedError("so few or short runs are not worth compiling its machine code for lanes")
+            raise patched.UnsuitedError("so few or short runs are not worth compiling its machine code for lanes")
         try:
             build(entries, listener)
         except CompilationError as problem:
-            raise UnsuitedError(f"there is no machine code for lanes: {problem}") from None
+            raise patched.UnsuitedError(f"there is no machine code for lanes: {problem}") from None
         self._runs, self._loop = runs, LaneLoop(runs.blank.loop, runs.blank.pieces)
         self.loop_seconds, self.tried, self.kept = 0.0, 0, 0
 
@@ -82,7 +73,7 @@ class LaneRuns:
                 self._runs.begin(xs[inside[lane]])
             self._loop.memory.take(lane, self._runs.blank.pieces)
         run, begin = self._loop.run, thread_time()
-        run.counter[BUDGET] = BUDGET_OF_ALL
+        run.counter[BUDGET] = patched.BUDGET_OF_ALL
         status, left = self._loop.go()
         self.loop_seconds = (thread_time() - begin) / len(inside)
         frames = run.frames[: run.counter[FRAMES]].view(np.float64).reshape(-1, run.frames.shape[1], lane_count())
@@ -143,9 +134,9 @@ class VariantRuns:
     time_limit [s] : of the processor time of each; what takes longer is `timed out`.
     """
 
-    def __init__(self, base: Model, patches: Patches | None = None, time_limit: float | None = None) -> None:
+    def __init__(self, base: Model, patches: patched.Patches | None = None, time_limit: float | None = None) -> None:
         self._base, self._limit = base, time_limit
-        self._patched = None if patches is None else PatchedRuns(patches)
+        self._patched = None if patches is None else patched.PatchedRuns(patches)
         self._lanes: LaneRuns | None = None
         self.not_in_lanes = "each is prepared" if patches is None else "there is a time limit"
 
@@ -155,7 +146,7 @@ class VariantRuns:
             return
         try:
             self._lanes, self.not_in_lanes = LaneRuns(self._patched, seconds, listener), ""
-        except UnsuitedError as problem:
+        except patched.UnsuitedError as problem:
             self.not_in_lanes = str(problem)
 
     def run_all(self, rows: Sequence[Values]) -> Iterator[Ran]:
@@ -164,7 +155,7 @@ class VariantRuns:
         if self._lanes is None or not self._lanes.serves or len(rows) == 1:
             yield from map(self.run, rows)
             return
-        for row, result in zip(rows, self._lanes.run([read_values(row) for row in rows]), strict=True):
+        for row, result in zip(rows, self._lanes.run([patched.read_values(row) for row in rows]), strict=True):
             done = None if result is None else Ran("done", "", result, self._lanes.loop_seconds, in_lanes=True)
             yield done or self.run(row)
 
@@ -172,13 +163,13 @@ class VariantRuns:
         """The machine with these values, run by its own settings, without a second run and a trust report."""
         try:
             return self._run(values)
-        except TooLongError as late:
+        except patched.TooLongError as late:
             return Ran(TIMED_OUT, str(late))
 
     def _run(self, values: Values) -> Ran:
         """Raises TooLongError."""
         if self._patched is not None:
-            frames = self._patched.run(read_values(values), self._limit)
+            frames = self._patched.run(patched.read_values(values), self._limit)
             if frames is not None:
                 event = self._patched.stopped_by
                 outcome, reason = ("stopped", f"event {event}") if event else ("done", "")
@@ -186,7 +177,7 @@ class VariantRuns:
         return tried(lambda: self._prepared(values))
 
     def _prepared(self, values: Values) -> Result:
-        watched = None if self._limit is None else Listener(progress=watch(self._limit))
+        watched = None if self._limit is None else Listener(progress=patched.watch(self._limit))
         machine = self._base.with_values(values) if values else self._base
         plan = plan_run(machine.record, machine.origin.settings_outside)
         return simulate(plan, judge=False, listener=watched)
@@ -211,12 +202,12 @@ def analysed(machine: Model, analysis: str, settings: Mapping[str, Any]) -> Any:
     return getattr(machine, analysis)(**settings)
 
 
-def formulas_for(base: Model, rows: Sequence[Values], *, judged: bool = False) -> tuple[Patches | None, str]:
+def formulas_for(base: Model, rows: Sequence[Values], *, judged: bool = False) -> tuple[patched.Patches | None, str]:
     """Formulas for these variants, or why there are none, in words. judged : as of `learn`."""
     try:
-        patches = learn(base, rows, judged=judged)
-        PatchedRuns(patches)
-    except UnsuitedError as problem:
+        patches = patched.learn(base, rows, judged=judged)
+        patched.PatchedRuns(patches)
+    except patched.UnsuitedError as problem:
         return None, str(problem)
     return patches, ""
 
@@ -224,15 +215,15 @@ def formulas_for(base: Model, rows: Sequence[Values], *, judged: bool = False) -
 class JudgedRuns:
     """Runs of variants in memory of their own, one after the other. What is no number of the memory is the same in all of them."""
 
-    def __init__(self, found: Patches) -> None:
+    def __init__(self, found: patched.Patches) -> None:
         """Raises UnsuitedError where the memory cannot be copied."""
-        self._runs = PatchedRuns(found)
+        self._runs = patched.PatchedRuns(found)
 
     def run(self, machine: Model, values: Mapping[str, Any]) -> Result | None:
         """The run of the machine, which has these values, with its trust report; None where it has to be prepared: it needs another method
         or has another structure, or did not come to its end as it should. Raises ModelError as preparing does."""
         found, blank = self._runs.found, self._runs.blank
-        plan, x = plan_run(machine.record, machine.origin.settings_outside), read_values(values)
+        plan, x = plan_run(machine.record, machine.origin.settings_outside), patched.read_values(values)
         if not found.has(x):
             return None
         self._runs.begin(x)

@@ -27,10 +27,10 @@ __all__ = sorted(_HOMES)  # noqa: PLE0605
 provide(
     {
         "comparison": "nivel.report.compare_page:comparison_html",
-        "efforts": "nivel.report.motion_pages:efforts_html",
-        "linear model": "nivel.report.linear_page:linear_html",
-        "linear sweep": "nivel.report.linear_page:sweep_html",
-        "mechanism": "nivel.report.motion_pages:mechanism_html",
+        "efforts": "nivel.report.analysis_pages:efforts_html",
+        "linear model": "nivel.report.analysis_pages:linear_html",
+        "linear sweep": "nivel.report.analysis_pages:sweep_html",
+        "mechanism": "nivel.report.analysis_pages:mechanism_html",
         "notebook": "nivel.view.page:Inline",
         "report": "nivel.report.write:write_report",
         "result file": "nivel.results.store:save",

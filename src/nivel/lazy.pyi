@@ -53,7 +53,7 @@ import nivel.analysis.kinematics.run
 import nivel.analysis.linearise
 import nivel.analysis.linearise.linearise
 import nivel.analysis.linearise.ports
-import nivel.analysis.linearise.tuning
+import nivel.analysis.linearise.sampled
 import nivel.analysis.optimise
 import nivel.analysis.optimise.evaluations
 import nivel.analysis.optimise.identify
@@ -173,7 +173,6 @@ import nivel.kernels.signals.fmu
 import nivel.live
 import nivel.live.budget
 import nivel.live.datagrams
-import nivel.live.journal
 import nivel.live.page
 import nivel.live.recording
 import nivel.live.replay
@@ -226,7 +225,6 @@ import nivel.results.plots
 import nivel.results.result
 import nivel.results.scales
 import nivel.results.stress
-import nivel.results.stress_tables
 import nivel.results.study_statistics
 import nivel.results.terrain
 import nivel.results.trust

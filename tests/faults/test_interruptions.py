@@ -244,7 +244,7 @@ def test_what_is_written_is_whole_or_as_it_was(tmp_path):
 
 # where files are written into folders that are new, or journals, whose end may be cut
 WRITERS = {
-    "native/store.py", "files/target.py", "analysis/progress/journal.py", "analysis/sweep/processes.py", "live/journal.py",
+    "native/store.py", "files/target.py", "analysis/progress/journal.py", "analysis/sweep/processes.py", "live/recording.py",
     "fmu/writer.py", "files/fmu_file.py", "files/convex_parts.py", "system/signals/c_instance.py", "view/capture.py",
     "view/typescript.py",
 }  # fmt: skip

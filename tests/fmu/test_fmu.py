@@ -22,7 +22,7 @@ from needing import needs
 from nivel.analysis.plan.compilation import run_entries
 from nivel.cli import main
 from nivel.demos import demo_file
-from nivel.fmu.description import base_unit
+from nivel.fmu.writer import base_unit
 from nivel.native import library, shipped
 from nivel.native.sources import fingerprint
 from patience import PATIENCE

@@ -4,7 +4,7 @@ Nyquist's criterion on the closed form of the loop."""
 import numpy as np
 import pytest
 
-from nivel.analysis.linearise.tuning import tuned
+from nivel.analysis.linearise.sampled import tuned
 from nivel.api import Machine
 from nivel.errors import ModelError
 from nivel.files import parse_machine

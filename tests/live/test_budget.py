@@ -9,7 +9,7 @@ from click.testing import CliRunner
 import cart
 from nivel import Input
 from nivel.analysis.progress.log import Listener
-from nivel.cli.budget import command
+from nivel.cli.budget import budget
 from nivel.files.reader import parse_machine
 from nivel.integrate.loop.paced import BIN_WIDTH, BINS, COMPUTING, FIRST_BIN, LONGEST, count_into
 from nivel.live.budget import Cost, Held, costs, ends, swept
@@ -121,7 +121,7 @@ def test_a_lever_is_held_until_the_machine_is_at_its_end_and_what_fails_there_is
     assert found.rate_held == pytest.approx(1.0 / max(found.timing.computing[3], found.worst.cost))
     path = tmp_path / "cart.yaml"
     path.write_text(text)
-    said = CliRunner().invoke(command, [str(path), "--integrators", "rk4", "--quiet"]).output
+    said = CliRunner().invoke(budget, [str(path), "--integrators", "rk4", "--quiet"]).output
     assert f"  with lever at 1 the run ends at {right.ended:.4g} s" in said
     assert "inputs held at their ends (4 combinations): dearest with " in said
 

@@ -18,9 +18,8 @@ import cart
 from needing import needs
 from nivel.errors import ModelError
 from nivel.files.reader import parse_machine
-from nivel.live.journal import FIRST_LINE, PART, TICKS, Journal, journal_of
 from nivel.live.preparation import live_plan
-from nivel.live.recording import about_run, read_recording
+from nivel.live.recording import FIRST_LINE, PART, TICKS, Journal, about_run, journal_of, read_recording
 from nivel.live.replay import replay
 from patience import PATIENCE
 

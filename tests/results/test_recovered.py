@@ -12,7 +12,7 @@ import nivel
 from models import bar, reduced
 from nivel.errors import ModelError
 from nivel.flexible.body.body_file import write_body
-from nivel.results.stress_tables import write_cycles, write_envelope, write_history, write_states
+from nivel.results.stress import write_cycles, write_envelope, write_history, write_states
 
 L, B, H, RHO, E, G = 2.0, 0.02, 0.03, 7850.0, 210e9, 3.0
 SETTLING = f"""

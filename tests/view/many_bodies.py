@@ -3,8 +3,7 @@
 
 import numpy as np
 
-from nivel.view.frames import layout
-from nivel.view.package import Block
+from nivel.view.package import Block, layout
 from nivel.view.records import Body, Flexible, Joint, Part, Stage, Sweep, Viewpoint
 
 LINKS = 300

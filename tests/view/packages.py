@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.machine.core.vectors import Array
-from nivel.view import frames, records
+from nivel.view import package, records
 from nivel.view.package import KINDS, MAGIC, Block, to_bytes
 from nivel.view.sources import Source
 
@@ -46,7 +46,7 @@ class Live(Source):
         self, time: float, position: Array, orientation: Array, modal: Array | None = None, vectors: Array | None = None
     ) -> None:
         """A new moment: position (B, 3), orientation (B, 4), modal coordinates (M,), vectors (V, 3)."""
-        row = frames.rows(
+        row = package.rows(
             position[None],
             orientation[None],
             None if modal is None else modal[None],

@@ -14,8 +14,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from nivel.view import records
-from nivel.view.frames import layout, message, rows
-from nivel.view.package import Block, to_bytes
+from nivel.view.package import Block, layout, message, rows, to_bytes
 from nivel.view.page import built
 from nivel.view.records import PROTOCOL, Move, Moved, Package, Reset, Shown, Want
 from nivel.view.stream import LARGEST, NotUnderstoodError, read_message, said

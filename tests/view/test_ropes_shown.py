@@ -9,7 +9,7 @@ from browsing import drawn, watched
 from nivel.looks.poses import body_poses
 from nivel.report.force_drawing import STEPS, rope_line
 from nivel.report.picture import machine_picture
-from nivel.results.frames.json_forms import strangers
+from nivel.results.frames.stored import strangers
 from nivel.view.page import write_scene
 from simulating import simulate, solid
 

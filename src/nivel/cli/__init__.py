@@ -31,7 +31,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "demo": CommandPlace("nivel.cli.live:demo", "Operate one of the machines that come with nivel."),
     "live": CommandPlace("nivel.cli.live", "Operate a machine in real time in the browser."),
     "replay": CommandPlace("nivel.cli.live:replay", "Repeat a recorded live run exactly, or with other methods."),
-    "budget": CommandPlace("nivel.cli.budget", "Measure the computing time of a step, by method and by part."),
+    "budget": CommandPlace("nivel.cli.budget:budget", "Measure the computing time of a step, by method and by part."),
     "statics": CommandPlace("nivel.cli.motions:statics", "Find the static equilibrium of a machine under its loads."),
     "kinematics": CommandPlace(
         "nivel.cli.motions:kinematics", "Positions, velocities and reactions of a driven machine."
@@ -48,14 +48,16 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     ),
     "kc": CommandPlace("nivel.cli.vehicles:kc", "Kinematics and compliance of a suspension on a rig."),
     "compare": CommandPlace("nivel.cli.compare", "Run many methods and compare their speed and accuracy."),
-    "reduce": CommandPlace("nivel.cli.reduce", "Reduce a finite-element model to a flexible body."),
+    "reduce": CommandPlace("nivel.cli.models:reduce", "Reduce a finite-element model to a flexible body."),
     "view": CommandPlace("nivel.cli.view", "Show a result or move a machine in the browser."),
     "explain": CommandPlace("nivel.cli.results:explain", "Show how far a result can be trusted, and why."),
     "loads": CommandPlace("nivel.cli.results:loads", "Peak reactions, power and work, and load cycles of signals."),
     "stress": CommandPlace("nivel.cli.stress", "Find the largest stresses in a flexible body."),
     "export": CommandPlace("nivel.cli.export", "Write a result as a table, or a machine as a C library or FMU."),
-    "import": CommandPlace("nivel.cli.import_model", "Translate a model of another program into a machine file."),
-    "warmup": CommandPlace("nivel.cli.warmup", "Compile all kernels ahead of the first run."),
+    "import": CommandPlace(
+        "nivel.cli.models:import_model", "Translate a model of another program into a machine file."
+    ),
+    "warmup": CommandPlace("nivel.cli.budget:warmup", "Compile all kernels ahead of the first run."),
 }
 
 

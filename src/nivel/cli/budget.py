@@ -1,5 +1,7 @@
-"""`nivel budget MACHINE`: what a step costs in real time, without running live."""
+"""`nivel budget MACHINE`: what a step costs in real time, without running live. `nivel warmup`: compile everything ahead of the first
+run."""
 
+import time
 from collections.abc import Iterator
 from math import isnan
 from typing import Any
@@ -7,10 +9,38 @@ from typing import Any
 import click
 
 from nivel.cli import options
+from nivel.cli.options import quiet_option
+from nivel.cli.progress import progress_count
 from nivel.errors import Fault, ModelError
 from nivel.known import Cost
-from nivel.lazy import nivel
+from nivel.lazy import nivel, rich
 from nivel.settings import StepSettingsDict
+
+
+@click.command()
+@quiet_option
+def warmup(quiet: bool) -> None:
+    """Compile every formulation, integrator and type of force into the user's cache, on all processors.
+
+    Entries that are compiled already are kept. After an interruption, the next call continues.
+    """
+    console = rich.console.Console(stderr=True, highlight=False, quiet=quiet)
+    begin = time.perf_counter()
+    entries = nivel.analysis.plan.compilation.all_entries()
+    missing = nivel.native.library.missing(entries)
+    with progress_count("compiling", quiet) as tell:
+        names: list[str] = []
+
+        def done(name: str) -> None:
+            names.append(name)
+            tell(len(names), len(missing), name)
+
+        nivel.native.library.build(missing, done)
+    spent = time.perf_counter() - begin
+    console.print(
+        f"{len(missing)} of {len(entries)} entries compiled in {spent:.1f} s; cache: {nivel.native.store.folder()}",
+        soft_wrap=True,
+    )
 
 
 @click.command()
@@ -26,7 +56,7 @@ from nivel.settings import StepSettingsDict
     "Methods to compare; default: that of the file and all that need no compilation.",
 )
 @options.quiet_option
-def command(
+def budget(
     machine: str,
     overrides: dict[str, str],
     allow_code: bool,

@@ -102,7 +102,7 @@ def _tuned(record: MachineRecord, model: LinearModel, asked: str) -> str:
     except ValueError:
         said = f"`{asked}` is not of the form BLOCK=PHASE,GAIN, e.g. position=60,2: degrees, and a factor"
         raise ModelError(Fault.at("linearise.tune", said)) from None
-    return nivel.analysis.linearise.tuning.tuned(record, model.sampled, name.strip(), phase, gain).words
+    return nivel.analysis.linearise.sampled.tuned(record, model.sampled, name.strip(), phase, gain).words
 
 
 def _sweep(order: Order, over: str, orders: list[float], *, verify: bool) -> None:

@@ -179,7 +179,7 @@ def command(
     target = None if record is None else Path(record)
     if target is not None:
         nivel.files.target.check_target(target, "recording", force=force, sources=[Path(machine)])
-        nivel.live.journal.check_journal(nivel.live.journal.journal_of(target), force=force)
+        nivel.live.recording.check_journal(nivel.live.recording.journal_of(target), force=force)
     listen = udp and nivel.live.datagrams.place_of(udp, "udp")
     send = udp_to and nivel.live.datagrams.place_of(udp_to, "udp_to")
     loaded = nivel.api.load(machine, overrides, allow_code=allow_code)
@@ -207,7 +207,7 @@ def command(
         for line in introduction(session):
             say(line)
         if target is not None:
-            say(f"recording: {nivel.live.journal.journal_of(target)}, which becomes {target} when the run ends")
+            say(f"recording: {nivel.live.recording.journal_of(target)}, which becomes {target} when the run ends")
         if listen:
             say(f"datagrams: received at {':'.join(map(str, outside.address))}")
         session.command("run")
@@ -241,7 +241,7 @@ def keep(session: Session, target: Path) -> None:
         session.close()
         session.recorder.complete(target)
     except KeyboardInterrupt:
-        journal = nivel.live.journal.journal_of(target)
+        journal = nivel.live.recording.journal_of(target)
         tell(f"the recording was not completed; what was recorded is in {journal}: `nivel replay {journal}` plays it")
         raise
 

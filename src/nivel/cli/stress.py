@@ -69,7 +69,7 @@ def command(
             found.frame(moment)
         _refuse_to_replace((table, cycles, picture, vtk), force, [Path(result), found.file])
         stage("looking for hot spots", 0.1)
-        told = nivel.results.stress_tables.stress_facts(found, count=count, nodes=wanted, times=moments)
+        told = nivel.results.stress.stress_facts(found, count=count, nodes=wanted, times=moments)
         stage("writing", 0.6)
         _write(found, wanted, moments, strains=strains, table=table, cycles=cycles, picture=picture)
         if vtk is not None:
@@ -131,13 +131,13 @@ def _write(
 ) -> None:
     if table is not None:
         if nodes:
-            nivel.results.stress_tables.write_history(table, found, nodes, strains=strains)
+            nivel.results.stress.write_history(table, found, nodes, strains=strains)
         elif times:
-            nivel.results.stress_tables.write_states(table, found, times)
+            nivel.results.stress.write_states(table, found, times)
         else:
-            nivel.results.stress_tables.write_envelope(table, found)
+            nivel.results.stress.write_envelope(table, found)
     if cycles is not None:
-        nivel.results.stress_tables.write_cycles(cycles, found, nodes)
+        nivel.results.stress.write_cycles(cycles, found, nodes)
     if picture is not None:
         nivel.results.plots.save_plot(picture, found, nodes)
 

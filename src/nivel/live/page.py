@@ -31,10 +31,9 @@ from nivel.judge.before.refusals import ON_SOIL
 from nivel.kernels.core import status
 from nivel.kernels.core.block import Handle
 from nivel.kernels.output.observe import observe
-from nivel.live.journal import Journal, journal_of
 from nivel.live.picture import Picture
 from nivel.live.preparation import HAND_INPUTS, LiveRun, Pace, live_plan, pace_of, prepared_run
-from nivel.live.recording import about_run
+from nivel.live.recording import Journal, about_run, journal_of
 from nivel.live.session import Session
 from nivel.live.shared import Sizes, bytes_of, live_in
 from nivel.live.timing import ENTRIES

@@ -10,7 +10,7 @@ from nivel.machine.core.vectors import Array
 from nivel.machine.signals.input import Input
 from nivel.machine.signals.sensor import Sensor
 from nivel.system.layout import FrameLayout, Variable
-from nivel.view import frames
+from nivel.view import package
 from nivel.view.package import Block, to_bytes
 from nivel.view.records import PROTOCOL, Control, Gauge, Package, Parameter
 from nivel.view.sources import machine_stage
@@ -73,7 +73,7 @@ class Places:
     def row(self, frame: Array, origin: Array) -> Array:
         """What the page draws."""
         position, orientation = self.pose(frame)
-        return frames.rows(position[None] - origin, orientation[None], frame[self.modal][None])[0]
+        return package.rows(position[None] - origin, orientation[None], frame[self.modal][None])[0]
 
 
 def gauges(layout: FrameLayout) -> list[tuple[str, Variable]]:

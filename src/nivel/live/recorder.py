@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from nivel.errors import SolveError
 from nivel.integrate.loop.paced import DONE, SHOWN, Live
-from nivel.live.journal import FRAMES, GAP, PART, TICKS, Journal
 from nivel.live.preparation import Pace
-from nivel.live.recording import Part, complete, parts_in
+from nivel.live.recording import FRAMES, GAP, PART, TICKS, Journal, Part, complete, parts_in
 from nivel.machine.core.vectors import Array
 
 MARGIN = 1024  # rows of the ring that the loop may write while they are read

@@ -11,11 +11,10 @@ from nivel.analysis.plan.plan import Plan
 from nivel.errors import Fault, ModelError
 from nivel.integrate.loop.paced import COMMAND, DONE, HEARD, LOST, MODE, SAVED, SPEED, Live
 from nivel.live import shared
-from nivel.live.journal import Journal
 from nivel.live.light import Counts, Judge, Light
 from nivel.live.preparation import HAND_INPUTS, HAND_PULL, Pace, grip
 from nivel.live.recorder import History, Recorder
-from nivel.live.recording import Take, takes_of
+from nivel.live.recording import Journal, Take, takes_of
 from nivel.live.shared import Sizes, bytes_of, copy_of, live_in, soils_in
 from nivel.live.solver import Told, main
 from nivel.live.timing import Timing, timing_of

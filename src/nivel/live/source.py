@@ -11,7 +11,7 @@ from nivel.lazy import nivel
 from nivel.live.picture import Picture
 from nivel.live.session import COMMANDS, Session
 from nivel.machine.core.vectors import Array
-from nivel.view.frames import moves_message
+from nivel.view.package import moves_message
 from nivel.view.records import Command, Drive, Hold, Note, Status, Take
 from nivel.view.sources import Source
 

@@ -14,9 +14,8 @@ import numpy as np
 from nivel.lazy import Struct
 from nivel.looks.poses import rotation
 from nivel.machine.core.vectors import Array
-from nivel.view.acting import coordinate_place
 from nivel.view.records import Arrow, Force, Joint, Triple
-from nivel.view.stage import Cast
+from nivel.view.stage import Cast, coordinate_place
 
 Read = Callable[[str], Array | None]  # a variable of the result by name (n, …), None where it has none
 

@@ -12,9 +12,8 @@ from nivel.elements.joints.couplings import FunctionCoupling
 from nivel.looks.poses import rotation
 from nivel.machine.core.vectors import Array
 from nivel.machine.uses.coordinate_reference import Kind as CoordinateKind
-from nivel.view.acting import CoordinatePlace, coordinate_place, triple
 from nivel.view.records import Coupling, End, Track, Wheel
-from nivel.view.stage import Cast
+from nivel.view.stage import Cast, CoordinatePlace, coordinate_place, triple
 
 # what the coordinates of a coupling are where only their joints are named
 KINDS: Final[dict[str, tuple[CoordinateKind, CoordinateKind]]] = {

@@ -10,9 +10,8 @@ from nivel.looks.solids import attached, held_points, reach_of, shapes_of
 from nivel.looks.viewpoint import choose_view, is_planar
 from nivel.machine.bodies.surface import surface_arrays
 from nivel.machine.core.vectors import Array
-from nivel.view.acting import triple
 from nivel.view.records import Triple, Viewpoint
-from nivel.view.stage import Cast
+from nivel.view.stage import Cast, triple
 
 FAR_AWAY: Final = 1e3  # machine lengths from the global origin from which on positions are counted from the machine
 LOOKED_AT: Final = 60  # frames that the box around a motion is found from

@@ -11,7 +11,7 @@ from nivel.lazy import Struct, nivel, replace
 from nivel.looks.diagram import block_diagram
 from nivel.machine.core.vectors import Array
 from nivel.results.result import Result
-from nivel.view import frames as frame_plan
+from nivel.view import package
 from nivel.view.arrows import Moments, arrows, described, places_of, violation_vectors
 from nivel.view.couplings import couplings
 from nivel.view.extent import extent
@@ -152,7 +152,7 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
     drawn = _vectors(players, result, frames, Moments.of(position, orientation)) if budget.vectors else NO_VECTORS
     vectors = drawn.values if budget.vectors else np.zeros((len(position), 0, 3))
     modal = _read(result, "modal_coordinate", frames)
-    rows = frame_plan.rows(position - np.array(where.origin), orientation, modal, vectors)
+    rows = package.rows(position - np.array(where.origin), orientation, modal, vectors)
     bending, felt, colourless = flexible(scene, block, modal), None, []
     if number == 0:
         bending, felt, colourless = _coloured(result, bending, frames, block, budget)
@@ -161,7 +161,7 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
         **{**players.lists, "joints": drawn.joints or players.joints},
         name=result.name,
         title=str(result.path.name) if result.path else result.name,
-        layout=frame_plan.layout(bodies, 0 if modal is None else modal.shape[1], vectors.shape[1]),
+        layout=package.layout(bodies, 0 if modal is None else modal.shape[1], vectors.shape[1]),
         flexible=bending,
         sections=felt,
         colourless=colourless,

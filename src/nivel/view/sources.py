@@ -9,7 +9,7 @@ import numpy as np
 from nivel.errors import ModelError
 from nivel.machine.core.vectors import Array
 from nivel.results.result import Result
-from nivel.view import frames, records
+from nivel.view import package, records
 from nivel.view.couplings import couplings
 from nivel.view.extent import extent
 from nivel.view.package import Block, to_bytes
@@ -140,7 +140,7 @@ class PosedMachine(Source):
         with self._lock:
             position, orientation = self._movable.pose()
         undeformed = np.zeros((1, self._stage.layout.modes))
-        return 0.0, frames.rows(position[None] - np.array(self._stage.origin), orientation[None], undeformed)[0]
+        return 0.0, package.rows(position[None] - np.array(self._stage.origin), orientation[None], undeformed)[0]
 
     def move(self, coordinate: str, value: float) -> records.Moved | None:
         return self._moved(lambda: self._movable.move(coordinate, value))
@@ -171,14 +171,14 @@ def machine_stage(
     where = extent(players, position[None], orientation[None])
     bending = flexible(scene, block, None)
     modes = max((each.first + each.modes.shape[0] for each in bending), default=0)
-    row = frames.rows(position[None] - np.array(where.origin), orientation[None], np.zeros((1, modes)))
+    row = package.rows(position[None] - np.array(where.origin), orientation[None], np.zeros((1, modes)))
     motion = records.Motion(block.add(np.zeros(1), "f8"), block.add(row.T), 1, 1)
     return records.Stage(
         **vars(where),
         **players.lists,
         name=name,
         title=name,
-        layout=frames.layout(len(players.bodies), modes),
+        layout=package.layout(len(players.bodies), modes),
         flexible=bending,
         arrows=[],
         couplings=couplings(players, position[None], orientation[None]),

@@ -11,7 +11,7 @@ from dataclasses import asdict, fields
 from typing import Any, Final, get_args, get_origin, get_type_hints
 
 from nivel.errors import ModelError
-from nivel.view.frames import message, samples_message
+from nivel.view.package import message, samples_message
 from nivel.view.records import (
     COLUMN,
     FROM_PAGE,

@@ -1,20 +1,12 @@
-"""Beams: elements that are too long, and states near buckling.
+"""Beams: what the size of their elements makes wrong of a run, of equilibria and of vibrations about these; states near buckling."""
 
-Curvatures change within an element, which linear elements take for constant, and quadratic ones for linear. What they miss is estimated
-by neighbours, as by a mesh of half the elements (Zienkiewicz, Zhu 1987): within an element of the length L a curvature changes by half
-of what it differs by between the elements on both sides, c L, and ½ C c² L³/12 of bending energy is not there. Of quadratic elements it
-is the slope of the curvature that changes, by d L, and ½ C d² L⁵/720 that is not there.
-
-Near buckling a small error of the stiffness is a large one of the deflection. The lowest stiffness is extrapolated to finer elements:
-where they would take all that is left of it, a state that was found is none.
-"""
-
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Final
 
 import numpy as np
 
 from nivel.analysis.assembly.equations import rotation_between
+from nivel.judge.after.other_elements import Compared, ElementErrors, Pair
 from nivel.judge.after.report import FRAMES, OTHERS, STEPS, Check
 from nivel.judge.after.subject import Equilibria, Run
 from nivel.lazy import Struct
@@ -22,7 +14,7 @@ from nivel.machine.core.orientation import euler_parameters_from_matrix
 from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.motion import common_frames
-from nivel.results.scales import Readable, largest_mechanical_energy
+from nivel.results.scales import Readable, largest_mechanical_energy, machine_size
 from nivel.results.trust import Item, Threshold, number
 
 MOST_FRAMES = 200  # that are looked at, at most
@@ -187,7 +179,206 @@ def say_buckling(found: OtherStability | Softened) -> Item:
     return MESH.item("mesh", said, found.off, found.time)
 
 
+SMALL: Final = 0.1  # of the largest motion: what moves by less is compared with that
+LEAST_MOTION: Final = 1e-5  # of the size, or of a radian: what moves by less is compared with that
+# of the largest torque, over the size: forces below are compared with that; torques likewise
+LEAST_REACTION: Final = 1e-3
+ROUND_OFF: Final = 1e-13  # of the stiffness EA: reactions below are none
+
+
+class Farthest(Struct):
+    """The largest error of a place by elements [m], of which body and when [s]."""
+
+    error: float
+    body: str
+    time: float
+
+
+class Unfinished(Struct):
+    """The machine with other elements, `words` says which, did not come to its end, `why`. needed : it is one of equilibria, which are not
+    sure then."""
+
+    words: str
+    why: str
+    needed: bool
+
+
+class Off(Struct):
+    """What is wrong most against its scale. error, scale [units] at `time` [s]; beams : whose elements do it."""
+
+    name: str
+    error: float
+    scale: float
+    units: str
+    time: float
+    beams: tuple[str, ...]
+    words: str
+    order: int
+
+    @property
+    def share(self) -> float:
+        return self.error / self.scale
+
+
+def look_farthest(subject: Run | Equilibria) -> Farthest | None:
+    """The largest error of a place."""
+    errors = _compared(subject).errors
+    if errors is None or "position" not in errors.values:
+        return None
+    off = np.linalg.norm(errors.values["position"], axis=-1)
+    k, body = np.unravel_index(int(np.argmax(off)), off.shape)
+    return Farthest(float(off[k, body]), subject.result.coordinates["body"][body], float(errors.time[k]))
+
+
+def say_farthest(found: Farthest) -> Item:
+    """How far places are from those with finer elements."""
+    where = f", most at {found.body}, t = {found.time:.6g} s" if found.error else ""
+    said = f"Elements: places are within about {number(found.error)} m of those with finer elements of beams{where}"
+    return Item("elements", "green", f"{said} (said, always green)", row=found.body, time=found.time)
+
+
+def look(subject: Run | Equilibria) -> list[Off | Unfinished]:
+    """What elements make wrong most: of the motion, and of equilibria also of reactions and frequencies."""
+    compared, out = _compared(subject), list[Off | Unfinished]()
+    if compared.why or compared.errors is None:
+        why = compared.why or "it has no state at the same time"
+        out.append(Unfinished(compared.pair.words, why, isinstance(subject, Equilibria)))
+    if compared.errors is None:
+        return out
+    found = [most_off(subject.result, compared.errors, compared.pair, compared.drawn)]
+    if isinstance(subject, Equilibria):
+        found += [_reactions(subject.result, compared), _vibrations(subject.result, compared)]
+    return [*out, *(each for each in found if each is not None)]
+
+
+def say(found: Off | Unfinished) -> Item:
+    """What the elements make wrong, and what to do."""
+    if isinstance(found, Unfinished):
+        if found.needed:
+            said = f"Mesh: with {found.words} elements of beams the equilibria are not found: {found.why}; use more `elements`"
+            return Item("mesh", "red", f"{said} (green if they are found and agree, red otherwise)")
+        said = f"Mesh: not judged to the end, because with {found.words} elements of beams {found.why}"
+        return Item("mesh", "amber", f"{said} (green if judged, amber otherwise)")
+    advice = "use twice as many `elements`" + (", or `order: 2`" if found.order == 1 else "")
+    said = (
+        f"Mesh: with {found.words} elements of {', '.join(found.beams)} the result differs: {found.name} is off by about "
+        f"{number(found.error)} {found.units} at t = {found.time:.6g} s, {number(found.share)} of {number(found.scale)} {found.units}; "
+        f"{advice}"
+    )
+    return MESH.item("mesh", said, found.share, found.time, found.name)
+
+
+def _compared(subject: Run | Equilibria) -> Compared:
+    assert subject.elements is not None
+    return subject.elements
+
+
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")
+def most_off(
+    result: Readable, errors: ElementErrors, pair: Pair, drawn: Mapping[str, Array] | None = None
+) -> Off | None:
+    """What the elements make wrong most, as a share of its motion; of nodes, of the largest motion of their beam.
+
+    drawn : of bodies, the place (3,) [m] from which they have moved; without it the first frame is that.
+    """
+    size, reach = machine_size(result)[0], _reach(result, pair.beams, drawn)
+    found = [
+        Off(name, error, scale, units, time, pair.beams, pair.words, pair.order)
+        for name, error, scale, units, time in (
+            *_places(result, errors, reach),
+            *_joints(result, errors, max(SMALL * max(reach.values(), default=0.0), LEAST_MOTION * size), size),
+        )
+        if scale > 0.0
+    ]
+    return max(found, key=lambda each: each.share, default=None)
+
+
+def _reach(result: Readable, beams: Iterable[str], drawn: Mapping[str, Array] | None) -> dict[str, float]:
+    """How far each body moves [m]; every node as far as the one of its beam that moves farthest."""
+    if "position" not in result.variables:
+        return {}
+    names, path = result.coordinates["body"], result.array("position")
+    begin = path[0] if drawn is None else np.array([drawn.get(name, path[0, k]) for k, name in enumerate(names)])
+    extent = np.linalg.norm(path - begin, axis=-1).max(axis=0)
+    for beam in beams:
+        nodes = [k for k, name in enumerate(names) if name.startswith(f"{beam}.")]
+        extent[nodes] = extent[nodes].max(initial=0.0)
+    return dict(zip(names, extent.tolist(), strict=True))
+
+
+Judged = Iterator[tuple[str, float, float, str, float]]
+
+
+def _places(result: Readable, errors: ElementErrors, reach: Mapping[str, float]) -> Judged:
+    if "position" not in errors.values:
+        return
+    least = max(SMALL * max(reach.values(), default=0.0), LEAST_MOTION * machine_size(result)[0])
+    off = np.linalg.norm(errors.values["position"], axis=-1)
+    for b, name in enumerate(result.coordinates["body"]):
+        k = int(np.argmax(off[:, b]))
+        yield name, float(off[k, b]), max(reach[name], least), "m", float(errors.time[k])
+
+
+def _joints(result: Readable, errors: ElementErrors, least: float, size: float) -> Judged:
+    """Joint coordinates against their ranges, and their rates against the largest; least : [m] that counts as motion."""
+    span = float(result.time[-1] - result.time[0]) or 1.0
+    for variable in ("joint_coordinate", "joint_rate"):
+        if variable not in errors.values:
+            continue
+        values, off, rate = result.array(variable), errors.values[variable], variable == "joint_rate"
+        for j, name in enumerate(result.coordinates[result.variables[variable].dims[1]]):
+            angle = name.rpartition(".")[2].startswith("angle")
+            alone = rate or len(values) == 1
+            extent = float(np.abs(values[:, j]).max() if alone else np.ptp(values[:, j]))
+            floor = least / (size if angle else 1.0) / (span if rate else 1.0)
+            k = int(np.argmax(off[:, j]))
+            units = ("rad" if angle else "m") + ("/s" if rate else "")
+            said = f"the rate of {name}" if rate else name
+            yield said, float(off[k, j]), max(extent, floor), units, float(errors.time[k])
+
+
+def _reactions(result: Readable, found: Compared) -> Off | None:
+    """The reaction that is wrong most, against the largest."""
+    errors = found.errors
+    if errors is None or "joint_force" not in errors.values:
+        return None
+    size, names = machine_size(result)[0], result.coordinates["joint"]
+    rounded = ROUND_OFF * max(beam.properties.stiffness[0, 0] for beam in found.pair.machine.beams)
+    force, torque = (float(np.abs(result.array(name)).max(initial=0.0)) for name in ("joint_force", "joint_torque"))
+    if max(force, torque / size) < rounded:
+        return None
+    force, torque = max(force, LEAST_REACTION * torque / size), max(torque, LEAST_REACTION * force * size)
+    out, pair = [], found.pair
+    for variable, scale, units in (("joint_force", force, "N"), ("joint_torque", torque, "N m")):
+        off = errors.values[variable].max(axis=-1)
+        for j, name in enumerate(names):
+            k = int(np.argmax(off[:, j]))
+            if name in found.unique:
+                said = f"the {variable[6:]} of {name}"
+                time = float(errors.time[k])
+                out.append(Off(said, float(off[k, j]), scale, units, time, pair.beams, pair.words, pair.order))
+    return max(out, key=lambda each: each.share, default=None)
+
+
+def _vibrations(result: Readable, found: Compared) -> Off | None:
+    """The frequency that is wrong most, of itself."""
+    errors, pair = found.errors, found.pair
+    if errors is None or "natural_frequency" not in errors.values:
+        return None
+    own = result.array("natural_frequency")[common_frames(result.time, errors.time)[0]]
+    off = errors.values["natural_frequency"]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        share = np.nan_to_num(np.where(own > 0.0, off / own, 0.0))
+    k, j = np.unravel_index(int(np.argmax(share)), share.shape)
+    if not share[k, j] > 0.0:
+        return None
+    name, time = f"the frequency of vibration {j + 1}", float(errors.time[k])
+    return Off(name, float(off[k, j]), float(own[k, j]), "Hz", time, pair.beams, pair.words, pair.order)
+
+
 CHECKS = (
+    Check("elements", (Run, Equilibria), look_farthest, say_farthest, 275, (OTHERS, FRAMES), "Elements"),
+    Check("element_size", (Run, Equilibria), look, say, 282, (OTHERS, FRAMES), "Mesh", MESH, line="mesh", quiet=True),
     Check("beam_mesh", Run, look_at_mesh, say_mesh, 280, (STEPS,), "Mesh", MESH, line="mesh", quiet=True),
     Check("near_buckling", Equilibria, look_at_buckling, say_buckling, 284, (OTHERS, FRAMES), line="mesh", quiet=True),
 )

@@ -1,10 +1,15 @@
 # Classes that annotations name, without an import of their modules when the package runs.
 
+from nivel.analysis.kinematics.drive import Singularity as Singularity
+from nivel.analysis.linearise.validity import Kink as Kink
 from nivel.analysis.optimise.identify import Identified as Identified
 from nivel.analysis.optimise.optimise import Optimum as Optimum
+from nivel.analysis.plan.plan import Plan as Plan
 from nivel.analysis.preparation.preparation import Prepared as Prepared
 from nivel.analysis.progress.journal import Journal as Journal
 from nivel.analysis.progress.log import Listener as Listener
+from nivel.analysis.run.attempt import Verified as Verified
+from nivel.analysis.run.dynamics import RunOutcome as RunOutcome
 from nivel.analysis.sweep.resolution import Resolved as Resolved
 from nivel.analysis.sweep.variants import Variants as Variants
 from nivel.api import Machine as Machine
@@ -60,6 +65,8 @@ from nivel.flexible.body.body import ReducedBody as ReducedBody
 from nivel.flexible.body.invariants import Invariants as Invariants
 from nivel.flexible.checks.findings import Findings as Findings
 from nivel.flexible.reduce import Reduction as Reduction
+from nivel.judge.after.other_elements import Compared as Compared
+from nivel.judge.after.other_elements import Pair as Pair
 from nivel.kernels.record.hook import Family as Family
 from nivel.live.budget import Cost as Cost
 from nivel.live.replay import Replay as Replay
@@ -82,14 +89,23 @@ from nivel.machine.signals.input import Event as Event
 from nivel.machine.signals.input import Input as Input
 from nivel.machine.signals.input import State as State
 from nivel.machine.signals.sensor import Sensor as Sensor
+from nivel.results.analyses.efforts import Efforts as Efforts
+from nivel.results.analyses.efforts import JointPath as JointPath
 from nivel.results.analyses.linear_model import LinearModel as LinearModel
 from nivel.results.analyses.linear_sweep import LinearSweep as LinearSweep
+from nivel.results.analyses.mechanism import ConfigurationCurve as ConfigurationCurve
+from nivel.results.analyses.mechanism import Range as Range
 from nivel.results.analyses.mechanism import Studies as Studies
 from nivel.results.comparison import Comparison as Comparison
+from nivel.results.comparison import Reference as Reference
+from nivel.results.comparison import Row as Row
+from nivel.results.comparison import Spread as Spread
+from nivel.results.estimate import Estimate as Estimate
 from nivel.results.frames.circuit_balance import ComponentBalance as ComponentBalance
 from nivel.results.result import Result as Result
 from nivel.results.stress import RecoveredBody as RecoveredBody
 from nivel.results.terrain import TerrainHistory as TerrainHistory
+from nivel.results.trust import Trust as Trust
 from nivel.studies import Study as Study
 from nivel.system.builder import SystemBuilder as SystemBuilder
 from nivel.system.joint_rows import RowTable as RowTable

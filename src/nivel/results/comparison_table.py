@@ -1,15 +1,11 @@
 """A comparison as a table for people: in a terminal and in a notebook."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from html import escape
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import Final, NamedTuple
 
+from nivel import known
 from nivel.words import wording
-
-if TYPE_CHECKING:
-    from nivel.results.comparison import Comparison, Row, Spread
 
 CONVERGED: Final = 1e-3  # a method whose two finest runs are further apart does not claim to have converged
 MEANING: Final = (
@@ -22,10 +18,10 @@ class Column(NamedTuple):
     """A heading and what stands under it."""
 
     title: str
-    cell: Callable[[Row], str]
+    cell: Callable[[known.Row], str]
 
 
-def columns(comparison: Comparison) -> list[Column]:
+def columns(comparison: known.Comparison) -> list[Column]:
     """The columns that say something: words that vary, then numbers that not all rows have in common at zero."""
     rows = comparison.rows
     out = [Column(name, _word(name)) for name in comparison.varying or ("integrator",)]
@@ -51,7 +47,7 @@ def columns(comparison: Comparison) -> list[Column]:
     return out
 
 
-def lines(comparison: Comparison) -> list[str]:
+def lines(comparison: known.Comparison) -> list[str]:
     """What stands below the table: rows without numbers, what is the same for all, references, agreement."""
     out = _failures(comparison)
     if comparison.rows:
@@ -73,12 +69,12 @@ def lines(comparison: Comparison) -> list[str]:
     return out
 
 
-def simulated(comparison: Comparison) -> str:
+def simulated(comparison: known.Comparison) -> str:
     """How long the runs are."""
     return f"{'up to ' if comparison.stopped else ''}{seconds(comparison.duration)} simulated"
 
 
-def stops(comparison: Comparison) -> list[str]:
+def stops(comparison: known.Comparison) -> list[str]:
     """A line for every event that ended runs: how many, and when."""
     times: dict[str, list[float]] = {}
     for row in comparison.stopped:
@@ -92,7 +88,7 @@ def stops(comparison: Comparison) -> list[str]:
     return out
 
 
-def spread_line(comparison: Comparison) -> str:
+def spread_line(comparison: known.Comparison) -> str:
     """How far the completed methods agree."""
     spread = comparison.spread
     if spread is None:
@@ -103,7 +99,7 @@ def spread_line(comparison: Comparison) -> str:
     )
 
 
-def not_converged(spread: Spread, before: str) -> str:
+def not_converged(spread: known.Spread, before: str) -> str:
     """How many methods the spread leaves out, after `before`; nothing where there are none."""
     if spread.left_out == 0:
         return ""
@@ -111,7 +107,7 @@ def not_converged(spread: Spread, before: str) -> str:
     return f"{before}{methods} left out: their two finest runs are more than {CONVERGED:g} apart"
 
 
-def as_text(comparison: Comparison) -> str:
+def as_text(comparison: known.Comparison) -> str:
     """The table and its lines in plain text."""
     shown = columns(comparison)
     cells = [[column.title for column in shown], *([column.cell(row) for column in shown] for row in comparison.rows)]
@@ -128,7 +124,7 @@ def as_text(comparison: Comparison) -> str:
     return "\n".join([head, *table, *lines(comparison)])
 
 
-def as_html(comparison: Comparison) -> str:
+def as_html(comparison: known.Comparison) -> str:
     """The same for a notebook; colours follow its theme."""
     shown = columns(comparison)
     head = "".join(f"<th>{escape(column.title)}</th>" for column in shown)
@@ -142,7 +138,7 @@ def as_html(comparison: Comparison) -> str:
     )
 
 
-def motion(comparison: Comparison, row: Row) -> str:
+def motion(comparison: known.Comparison, row: known.Row) -> str:
     """The motion error of a row, or what it is below where its reference is no better."""
     reference = comparison.reference_of(row)
     if row.motion_error is None or reference is None:
@@ -151,7 +147,7 @@ def motion(comparison: Comparison, row: Row) -> str:
     return number(row.motion_error, 2) if comparison.is_resolved(row) else below
 
 
-def order(row: Row) -> str:
+def order(row: known.Row) -> str:
     """The observed order of a row."""
     return "" if row.order is None else f"{round(row.order, 1) + 0.0:.1f}"
 
@@ -171,15 +167,15 @@ def seconds(value: float | None) -> str:
     return "" if value is None else wording.seconds(value)
 
 
-def _word(name: str) -> Callable[[Row], str]:
+def _word(name: str) -> Callable[[known.Row], str]:
     return lambda row: "" if name == "rotations" and row.formulation != "lagrange" else str(getattr(row, name))
 
 
-def _count(name: str) -> Callable[[Row], str]:
+def _count(name: str) -> Callable[[known.Row], str]:
     return lambda row: "" if getattr(row, name) is None else str(getattr(row, name))
 
 
-def _failures(comparison: Comparison) -> list[str]:
+def _failures(comparison: known.Comparison) -> list[str]:
     """A line for every method and reason why it has no numbers, with its steps or tolerances."""
     cells: dict[tuple[str, str, str], list[str]] = {}
     for row in comparison.rows:
@@ -188,6 +184,6 @@ def _failures(comparison: Comparison) -> list[str]:
     return [f"{label}, {', '.join(sizes)}: {outcome}: {reason}" for (label, outcome, reason), sizes in cells.items()]
 
 
-def fineness(row: Row) -> str:
+def fineness(row: known.Row) -> str:
     """The step or the tolerance of a row."""
     return seconds(row.step) if row.step is not None else number(row.tolerance, 2)

@@ -1,15 +1,15 @@
 """Subjects of the trust report: a result, and what the analysis that computed it knows beside."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from copy import copy
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
+from nivel import known
 from nivel.integrate.loop.run import MOVING
 from nivel.judge.after.touching_pairs import Passing, find_passing
 from nivel.lazy import Struct, field
@@ -17,25 +17,6 @@ from nivel.results.curve import probed
 from nivel.results.motion import Peak, worst_row
 from nivel.results.scales import Readable, largest_speed, machine_size, speed_of_rest
 from nivel.results.trust import Item
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from nivel.analysis.kinematics.drive import Singularity
-    from nivel.analysis.linearise.validity import Kink
-    from nivel.analysis.plan.plan import Plan
-    from nivel.analysis.preparation.preparation import Prepared
-    from nivel.analysis.run.attempt import Verified
-    from nivel.analysis.run.dynamics import RunOutcome
-    from nivel.elements.joints.drivers import Driver
-    from nivel.judge.after.other_elements import Compared, Pair
-    from nivel.machine.machine_record import MachineRecord
-    from nivel.results.analyses.efforts import Efforts, JointPath
-    from nivel.results.analyses.mechanism import ConfigurationCurve, Range
-    from nivel.results.comparison import Reference, Row
-    from nivel.results.estimate import Estimate
-    from nivel.results.result import Result
-    from nivel.results.trust import Trust
 
 
 class Scales(Struct):
@@ -101,20 +82,20 @@ class Motion(Recorded, kw_only=True):
 class Computed(Struct, kw_only=True):
     """What analyses know that have just been made."""
 
-    machine: MachineRecord
-    prepared: Prepared
+    machine: known.MachineRecord
+    prepared: known.Prepared
 
 
 class Run(Motion, Computed, kw_only=True):
     """A run that has ended. second : the second run, and `estimate` what follows from it for each number; None where there are none.
     elements : the run with other elements of beams, or None."""
 
-    result: Result
-    plan: Plan
-    finished: RunOutcome
-    second: Verified | None = None
-    estimate: Estimate | None = None
-    elements: Compared | None = None
+    result: known.Result
+    plan: known.Plan
+    finished: known.RunOutcome
+    second: known.Verified | None = None
+    estimate: known.Estimate | None = None
+    elements: known.Compared | None = None
 
     @cached_property
     def assembly(self) -> Mapping[str, Any]:
@@ -132,7 +113,7 @@ class Run(Motion, Computed, kw_only=True):
         return self.finished.between_frames
 
     @property
-    def finer(self) -> Verified:
+    def finer(self) -> known.Verified:
         """The second run, for checks that need one."""
         assert self.second is not None
         return self.second
@@ -144,7 +125,7 @@ class Run(Motion, Computed, kw_only=True):
         return self.finished.pace
 
 
-def run_of(plan: Plan, prepared: Prepared, finished: RunOutcome, result: Result) -> Run:
+def run_of(plan: known.Plan, prepared: known.Prepared, finished: known.RunOutcome, result: known.Result) -> Run:
     """A run that has ended, without a second one."""
     return Run(
         result=result,
@@ -170,7 +151,7 @@ class Equilibria(Recorded, Computed, kw_only=True):
     rigid: int = 0
     free_motions: int = 0
     without_potential: bool = False
-    elements: Compared | None = None
+    elements: known.Compared | None = None
 
     @cached_property
     def scales(self) -> Scales:
@@ -182,7 +163,7 @@ class Positions(Recorded, Computed, kw_only=True):
     to; None where there are no constraints. passed : pairs of times [s] between which one was passed. between_frames : of `Probes`."""
 
     halved: int = 0
-    near: Singularity | None = None
+    near: known.Singularity | None = None
     passed: tuple[tuple[float, float], ...] = ()
     between_frames: Mapping[str, list[float]] = field(default_factory=dict)
 
@@ -197,7 +178,7 @@ class Positions(Recorded, Computed, kw_only=True):
         return dict(zip(system.layout.coordinates["joint_coordinate"], system.coordinate_units, strict=True))
 
     @property
-    def drivers(self) -> tuple[Driver, ...]:
+    def drivers(self) -> tuple[known.Driver, ...]:
         """The drivers that the positions are to follow."""
         return self.machine.drivers
 
@@ -206,10 +187,10 @@ class Actuated(Subject, kw_only=True):
     """Efforts of actuators over the motion `result`. drivers : that the motion is to follow; replaced : those that another motion was
     given in place of."""
 
-    result: Result
-    efforts: Efforts
-    drivers: tuple[Driver, ...]
-    replaced: tuple[Driver, ...] = ()
+    result: known.Result
+    efforts: known.Efforts
+    drivers: tuple[known.Driver, ...]
+    replaced: tuple[known.Driver, ...] = ()
 
     @property
     def between_frames(self) -> Mapping[str, list[float]]:
@@ -231,29 +212,29 @@ class Actuated(Subject, kw_only=True):
 class Led(Subject, kw_only=True):
     """Postures that lead a point along a path."""
 
-    path: JointPath
+    path: known.JointPath
 
 
 class Reach(Subject, kw_only=True):
     """The range of a joint coordinate. ways : trust reports of the kinematic analyses of both ways; turning : turning points of the
     coordinate on the curve of positions [rad or m], None where that could not be followed."""
 
-    range: Range
-    ways: tuple[Trust, ...]
+    range: known.Range
+    ways: tuple[known.Trust, ...]
     turning: tuple[float, ...] | None = None
 
 
 class Curve(Subject, kw_only=True):
     """The curve of all positions of a machine. opening : how far its joints are open at most, as a share of their sizes."""
 
-    curve: ConfigurationCurve
+    curve: known.ConfigurationCurve
     opening: float
 
 
 class OtherVibrations(Struct):
     """Eigenvalues (n,) [1/s] of the machine with other elements of its beams; none where `why` says what stopped it."""
 
-    pair: Pair
+    pair: known.Pair
     eigenvalues: NDArray[np.complex128]
     why: str = ""
 
@@ -272,7 +253,7 @@ class Linearisation(Subject, Computed, kw_only=True):
     round_off: NDArray[np.float64]
     moves: bool = False
     unsteady: tuple[str, ...] = ()
-    kinks: tuple[Kink, ...] = ()
+    kinks: tuple[known.Kink, ...] = ()
     reached: float = 0.0
     assembly: Mapping[str, Any] = field(default_factory=dict)
     size: float = 1.0
@@ -306,5 +287,5 @@ class Sweep(Subject, kw_only=True):
 class Methods(Subject, kw_only=True):
     """A comparison of methods: what their motions were held against, and the runs."""
 
-    references: tuple[Reference, ...]
-    rows: tuple[Row, ...]
+    references: tuple[known.Reference, ...]
+    rows: tuple[known.Row, ...]

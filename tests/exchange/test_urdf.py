@@ -365,6 +365,10 @@ def test_a_file_beside_the_model_says_which_frames_close_a_loop_and_how(tmp_path
     beside.write_text("closed_loop: [[one, three]]\ntype: [6d]\n", encoding="utf-8")
     with pytest.raises(nivel.ModelError, match=r"robot.yaml:1.*three"):
         data(tmp_path, text)
+    for wrong in ("closed_loop: [[one, two]]\ntype: []\n", "closed_loop: [one]\ntype: [6d]\n"):
+        beside.write_text(wrong, encoding="utf-8")
+        with pytest.raises(nivel.ModelError, match=r"robot.yaml:1.*expected"):
+            data(tmp_path, text)
     beside.unlink()
     alone = data(tmp_path, four_bar("3d").replace("closing_pin_2", "two"))
     assert any("closing_pin_1" in each for each in alone["left_out"])

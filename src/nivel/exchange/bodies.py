@@ -140,23 +140,25 @@ def offset(mechanism: Mechanism) -> None:
         move_to(mechanism, each, wanted)
 
 
-def move_to(mechanism: Mechanism, each: Connection, wanted: float, beyond: set[str] | None = None) -> None:
-    """Place what a revolute or translational joint carries, the links `beyond` where they are known, where its coordinate is `wanted`."""
-    way = wanted - each.placed
-    if not way:
-        return
-    axis = each.axes[0] / np.linalg.norm(each.axes[0])
-    turned = elementary_turn(axis, way) if each.kind == "revolute" else np.eye(3)
-    shift = each.point - turned @ each.point if each.kind == "revolute" else way * axis
+def move_to(mechanism: Mechanism, each: Connection, wanted: float) -> None:
+    """Place what a revolute or translational joint carries where its coordinate is `wanted`."""
+    if wanted != each.placed:
+        axis = each.axes[0] / np.linalg.norm(each.axes[0])
+        carry(mechanism, each, axis, wanted - each.placed, set(carried(mechanism, each)))
+        each.placed = wanted
+
+
+def carry(mechanism: Mechanism, each: Connection, axis: Array, way: float, beyond: set[str]) -> None:
+    """Move the links `beyond` a joint by `way` about a unit axis through its point, or along that of a translational one."""
+    turned = elementary_turn(axis, way) if each.kind != "translational" else np.eye(3)
+    shift = each.point - turned @ each.point if each.kind != "translational" else way * axis
     motion = Frame(turned, shift)
-    beyond = set(carried(mechanism, each)) if beyond is None else beyond
     for name in beyond:
         mechanism.links[name].place = motion @ mechanism.links[name].place
     for other in mechanism.connections:
         if other is not each and other.bodies[0] in beyond:
             other.point = motion.axes @ other.point + motion.origin
             other.axes = tuple(motion.axes @ axis for axis in other.axes)
-    each.placed = wanted
 
 
 def elementary_turn(axis: Array, angle: float) -> Array:

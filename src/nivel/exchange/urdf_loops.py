@@ -14,7 +14,7 @@ import numpy as np
 import yaml
 
 from nivel.errors import Fault, ModelError
-from nivel.exchange.bodies import carried, move_to
+from nivel.exchange.bodies import carried, carry, elementary_turn
 from nivel.exchange.mechanism import Array, Connection, Frame, Mechanism
 from nivel.files.sources import read_text
 from nivel.lazy import scipy
@@ -42,17 +42,17 @@ def close_loops(mechanism: Mechanism, path: Path) -> None:
     if pairs is None:
         pairs, kinds = _by_name(frames, mechanism)
     else:
-        kinds = [str(each).lower() for each in given.get("type", ["6d"] * len(pairs))]
+        pairs, kinds = _lists(given, "closed_loop", "type", beside)
     loops = []
-    for pair, kind in zip(pairs, kinds, strict=True):
-        first, second = (frames.get(name, "") for name in pair)
-        if not (first and second) or kind not in ("3d", "6d"):
+    for pair, told in zip(pairs, kinds, strict=True):
+        kind, ends = str(told).lower(), [frames.get(str(name), "") for name in pair] if isinstance(pair, list) else []
+        if len(ends) != 2 or not all(ends) or kind not in ("3d", "6d"):
             message = f"`{pair}` with the type `{kind}`: two frames of the model and `3d` or `6d` were expected"
             raise ModelError(Fault(str(beside), 1, 1, "closed_loop", message))
-        name, at = re.sub(r"_?[AB12]((?:_[36][dD])?)$", r"\1", pair[0]), mechanism.links[first].place.origin
+        name, at = re.sub(r"_?[AB12]((?:_[36][dD])?)$", r"\1", pair[0]), mechanism.links[ends[0]].place.origin
         type_of = "spherical" if kind == "3d" else "fixed"
-        loops.append(Connection(name, type_of, (first, second), at, frames=(Frame(), Frame())))
-        gap = float(np.linalg.norm(at - mechanism.links[second].place.origin))
+        loops.append(Connection(name, type_of, (ends[0], ends[1]), at, frames=(Frame(), Frame())))
+        gap = float(np.linalg.norm(at - mechanism.links[ends[1]].place.origin))
         mechanism.notes.change(BY_FILE if "closed_loop" in given else BY_NAME, f"{name}, open by {gap * 1e3:.3g} mm")
     if loops:
         _bring_together(loops, mechanism)
@@ -61,22 +61,33 @@ def close_loops(mechanism: Mechanism, path: Path) -> None:
 
 def _bring_together(loops: list[Connection], mechanism: Mechanism) -> None:
     """Turn and push the joints by least norm until the frames of all loops are near each other, by Gauss and Newton's steps."""
-    moved = [
-        (each, set(carried(mechanism, each))) for each in mechanism.connections if each.coordinate and not each.mimic
-    ]
+    moved = []
+    for each in mechanism.connections:
+        beyond = set(carried(mechanism, each))
+        axes = 3 if each.kind == "spherical" else len(each.axes) if each.coordinate or each.kind == "universal" else 0
+        moved += [(each, k, beyond) for k in range(axes) if not each.mimic]
     size = max(float(np.linalg.norm(each.place.origin)) for each in mechanism.links.values()) or 1.0
     for _ in range(MOST_STEPS):
         gaps = [_gap(each, mechanism, size) for each in loops]
         J = np.zeros((sum(map(len, gaps)), len(moved)))
-        for column, (joint, beyond) in enumerate(moved):
-            J[:, column] = np.concatenate([_rate(each, joint, beyond, mechanism, size) for each in loops])
+        for column, (joint, k, beyond) in enumerate(moved):
+            J[:, column] = np.concatenate([_rate(each, joint, k, beyond, mechanism, size) for each in loops])
         gap = np.concatenate(gaps)
         if np.abs(gap).max() < NEAR:
             return
         step = -np.linalg.lstsq(J, gap, rcond=RANK)[0]
         step *= min(1.0, LONGEST / float(np.abs(step).max(initial=LONGEST)))
-        for (joint, beyond), way in zip(moved, step, strict=True):
-            move_to(mechanism, joint, joint.placed + float(way), beyond)
+        for (joint, k, beyond), way in zip(moved, step.tolist(), strict=True):
+            axis = _axis(joint, k)
+            carry(mechanism, joint, axis, way, beyond)
+            if joint.kind == "universal" and k == 0:
+                joint.axes = joint.axes[0], elementary_turn(axis, way) @ joint.axes[1]
+            joint.placed += way if joint.coordinate else 0.0
+
+
+def _axis(joint: Connection, k: int) -> Array:
+    """The k-th unit axis of a joint; those of a spherical one are the global ones."""
+    return joint.axes[k] / np.linalg.norm(joint.axes[k]) if joint.axes else np.eye(3)[k]
 
 
 def _gap(loop: Connection, mechanism: Mechanism, size: float) -> Array:
@@ -88,9 +99,9 @@ def _gap(loop: Connection, mechanism: Mechanism, size: float) -> Array:
     return np.concatenate([apart, scipy.spatial.transform.Rotation.from_matrix(first.axes @ second.axes.T).as_rotvec()])
 
 
-def _rate(loop: Connection, joint: Connection, beyond: set[str], mechanism: Mechanism, size: float) -> Array:
-    """Rate of the gap of a loop, while it is small, by the coordinate of a joint that carries the links `beyond`."""
-    a, turns, rate = joint.axes[0] / np.linalg.norm(joint.axes[0]), joint.kind == "revolute", np.zeros(6)
+def _rate(loop: Connection, joint: Connection, k: int, beyond: set[str], mechanism: Mechanism, size: float) -> Array:
+    """Rate of the gap of a loop, while it is small, by a motion along the k-th axis of a joint that carries the links `beyond`."""
+    a, turns, rate = _axis(joint, k), joint.kind != "translational", np.zeros(6)
     for name, sign in zip(loop.bodies, (1.0, -1.0), strict=True):
         if name in beyond:
             shift = np.cross(a, mechanism.links[name].place.origin - joint.point) if turns else a
@@ -105,6 +116,16 @@ def _read(file: Path) -> dict[str, Any]:
     except yaml.YAMLError:
         return {}
     return given if isinstance(given, dict) and "closed_loop" in given else {}
+
+
+def _lists(given: dict[str, Any], first: str, second: str, beside: Path) -> tuple[list[Any], list[Any]]:
+    """Two lists of a file beside the model, whose numbers go in pairs."""
+    one, two = given.get(first, []), given.get(second, [])
+    if not (isinstance(one, list) and isinstance(two, list) and len(one) == len(two)):
+        raise ModelError(
+            Fault(str(beside), 1, 1, first, f"`{first}` and `{second}` were expected as lists of one length")
+        )
+    return one, two
 
 
 def _by_name(frames: dict[str, str], mechanism: Mechanism) -> tuple[list[list[str]], list[str]]:
@@ -123,8 +144,9 @@ def _by_name(frames: dict[str, str], mechanism: Mechanism) -> tuple[list[list[st
 
 def _change_joints(given: dict[str, Any], joints: dict[str, Connection], mechanism: Mechanism, beside: Path) -> None:
     """Give joints the kinds that the file beside the model says."""
-    for name, kind in zip(given.get("joint_name", ()), given.get("joint_type", ()), strict=True):
-        joint, turns = joints.get(name), re.fullmatch(r"UJOINT_([XYZ])([XYZ])", kind)
+    for name, told in zip(*_lists(given, "joint_name", "joint_type", beside), strict=True):
+        kind, joint = str(told), joints.get(str(name))
+        turns = re.fullmatch(r"UJOINT_([XYZ])([XYZ])", kind)
         if turns is None and kind not in ("SPHERICAL", "FIXED"):
             message = f"`{name}` has the type `{kind}`; there are {TYPES}"
             raise ModelError(Fault(str(beside), 1, 1, "joint_type", message))

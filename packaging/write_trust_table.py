@@ -31,8 +31,8 @@ battery: Batteries that are emptier or fuller than their voltages are given for,
 beam_mesh: Elements of beams that are too long: curvatures that change within an element, which linear elements take for constant, and
     quadratic ones for linear
 stiffening, bending: Limits of modes in a run: fast turns without geometric stiffness, bending that is not small
-between_frames, otherwise: Numbers between frames: how much farther they go than any stored number shows, and what no frame shows of
-    them
+between_frames, otherwise, pulses: Numbers between frames: how much farther they go than any stored number shows, and what no frame
+    shows of them, of the functions of the machine too
 branch: Branches: velocities that jump in a singular position, where the motion has gone on along another branch than by inertia
 hydraulics, fluid mass, cavitation, saturation, stall, pressure steps: Hydraulic circuits: their balances of energy and mass,
     cavitation, valves that are always open, engines that stall, and their steps

@@ -230,3 +230,60 @@ def test_loads_of_a_blow_that_no_frame_shows_are_open(interval, settings):
     for each in (loads, result.powers(), result.cycles("r.force.x")):
         assert each.attrs["verdict"] != "green"
         assert "an impact between frames, on a at t = 0.26 s" in str(each.attrs["headline"])
+
+
+RAIL = """
+format: 1
+gravity: [0, 0, 0]
+bodies: {a: {mass: 1, inertia: [1, 1, 1], velocity: [VELOCITY, 0, 0]}}
+joints: {r: {type: translational, bodies: [ground, a], point: [0, 0, 0], axis: [1, 0, 0]}}
+MORE
+simulation: {duration: 20}
+"""
+HELD = 'drivers: {d: {coordinate: r, value: "VELOCITY*time"}}\n'
+PUSHED = 'forces: {f: {type: motor, coordinate: r, effort: "LAW"}}'
+
+
+@pytest.mark.parametrize(
+    ("velocity", "more", "law"),
+    [
+        (0.1, HELD + PUSHED, "step(time, 2.509, 0, 2.51, 100) - step(time, 2.51, 0, 2.511, 100)"),
+        (10, HELD + PUSHED, "if(abs(r.displacement - 30.1) < 1e-3, 100, 0)"),
+        (
+            0.1,
+            HELD
+            + 'control: {c: {type: gain, input: "LAW", gain: 1, sample_time: 1 ms, units: N}}\n'
+            + PUSHED.replace("LAW", "c"),
+            "if(abs(time - 2.51) < 2.2e-3, 100, 0)",
+        ),
+    ],
+)
+def test_pulses_that_no_frame_meets_and_that_move_nothing_are_told(velocity, more, law):
+    """A pulse of 100 N in 2 ms, between frames 20 ms apart, that a driver bears: neither frames, nor accelerations, nor probes show it."""
+
+    def machine_of(law):
+        text = RAIL.replace("MORE", more).replace("LAW", law).replace("VELOCITY", str(velocity))
+        return nivel.Machine.from_record(parse_machine(text))
+
+    outputs = {"most": Reduced(type="peak", of="driver.d.effort"), "work": Reduced(type="integral", of="force.f.power")}
+    row = run_variant(Task(machine_of(law), outputs=outputs, verify=True), {})
+    assert row.outputs["most"].value < 1.0
+    assert row.verdict != "green"
+    assert "a pulse of " in row.headline
+    assert machine_of("100*sin(time)").simulate(verify=True).powers().attrs["verdict"] == "green"
+
+
+@pytest.mark.parametrize("before", [100.0137, 100.1])
+def test_the_least_distance_of_a_passage_is_right_or_open(before):
+    """0.01 m at 50 m/s, between frames 0.2 m apart: little beside a range of 100 m, and many times the number itself."""
+    text = f"""
+format: 1
+gravity: [0, 0, 0]
+bodies: {{a: {{mass: 1, inertia: [1, 1, 1], velocity: [50, 0, 0], position: [-{before}, 0.01, 0]}}}}
+markers: {{m: {{body: a}}, o: {{body: ground}}}}
+sensors: {{d: {{distance: [o, m]}}}}
+simulation: {{duration: 4}}
+"""
+    outputs = {"least": Reduced(type="min", of="sensor.d.distance")}
+    row = run_variant(Task(nivel.Machine.from_record(parse_machine(text)), outputs=outputs, verify=True), {})
+    assert row.outputs["least"].value == pytest.approx(0.01, rel=1e-2) or row.verdict != "green"

@@ -34,6 +34,9 @@ TOLD: Final = 1e-3  # of the range of a curve: a doubt about a number made from 
 ROUNDED: Final = 1e-9  # of the largest magnitude: a doubt that is round-off
 IMPACT: Final = 0.1  # of the largest acceleration of all frames: a mean one between two frames that these do not show
 QUARTERS: Final = (0.25, 0.5, 0.75)
+PULSE: Final = (
+    "pulse_between_frames"  # attribute of a result: in words, what a function does that no frame shows; may be missing
+)
 PROBED: Final = "between_frames"  # attribute of a result: JSON, by variable what its numbers are apart from their curves between frames
 
 
@@ -157,7 +160,13 @@ def curve_of(result: Result, name: str) -> Curve:
     return out.doubted(shaped[found.where[1:]].reshape(-1))
 
 
-def impact_between_frames(result: Result) -> str:
+def unseen_between_frames(result: Result) -> list[str]:
+    """What forces, sensors and reactions do between frames that these show nothing of, in words."""
+    pulse = str(result.attributes.get(PULSE, ""))
+    return [*filter(None, [pulse, _impact(result)])]
+
+
+def _impact(result: Result) -> str:
     """In words, the fastest change of velocities between two frames that accelerations at these do not show; empty where there is none.
 
     Δv - ½ h (a + b), over h: where it is above IMPACT of the largest acceleration, forces and reactions go beyond what frames show of them.

@@ -68,7 +68,8 @@ class RunOutcome:
     run that failed in the last state that was accepted. status : of the compiled loop.
     ends : (n,) [s] the start and the ends of all steps, where steps were chosen and looked at; impulses, hurried : of `NarrowFeatures`.
     went_on : the integrator that went on where the run became stiff, and from when [s].
-    between_frames : of `Probes`. work : of `nivel.analysis.progress.pacing`. terrain : of `nivel.results.terrain`.
+    between_frames : of `Probes`. pulse : what a function does that no frame shows, in words, where a
+    trust report was made. work : of `nivel.analysis.progress.pacing`. terrain : of `nivel.results.terrain`.
     """
 
     outcome: str
@@ -85,6 +86,7 @@ class RunOutcome:
     hurried: set[str] = field(default_factory=set)
     went_on: tuple[str, float] | None = None
     between_frames: dict[str, list[float]] = field(default_factory=dict)
+    pulse: str = ""
     work: int = 0
     terrain: str = ""
 

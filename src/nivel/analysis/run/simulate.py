@@ -41,7 +41,7 @@ from nivel.judge.after.report import assess, lines_apart
 from nivel.judge.after.subject import Run, run_of
 from nivel.judge.during.stop import Status
 from nivel.lazy import Struct, nivel, replace
-from nivel.results.curve import PROBED
+from nivel.results.curve import PROBED, PULSE
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
 from nivel.results.frames.summary import ATTRIBUTE as ITERATIONS
 from nivel.results.frames.summary import iterations_in_json, to_json
@@ -361,6 +361,7 @@ def close_run(
         attributes["settings"] = settings_in_json(plan.settings, plan.reason, finished.went_on)
     if judge:
         attributes["trust"] = (trust or assess(run)).to_json()
+        attributes[PULSE] = finished.pulse
     if estimate is not None and run.elements is not None and run.elements.errors is not None:
         estimate = nivel.judge.after.other_elements.with_elements(estimate, run.elements.errors)
     if estimate is not None:

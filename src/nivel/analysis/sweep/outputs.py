@@ -3,7 +3,7 @@
 import json
 from collections.abc import Callable, Mapping
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
@@ -25,6 +25,9 @@ Found = Result | Efforts | LinearModel
 Said = str | Callable[[Any], float]
 OF_MODE = {"frequency": "Hz", "damping_ratio": "1", "real": "1/s", "imaginary": "1/s"}
 OF_LOOP = {"gain_margin": "1", "phase_margin": "rad", "delay_margin": "s"}
+
+
+OPEN: Final = 1e-2  # of an extreme by itself, where its history has one sign: a doubt that is said
 
 
 class Number(NamedTuple):
@@ -99,6 +102,9 @@ def _number(found: Found, output: parameter.Output) -> Number:
     if output.type in SIZES and not is_told:
         least = ROUNDED * float(np.max(np.abs(part.value))) * (span or 1.0)
         is_told = reduced.doubt[0] > max(TOLD * float(SIZES[output.type](part).value[0]), least)
+    if output.type in ("min", "max") and np.all(part.value * reduced.value > 0.0):
+        # the least distance or pressure is a number by itself, however large the range
+        is_told = is_told or reduced.doubt[0] > OPEN * abs(reduced.value[0])
     value, doubt = float(reduced.value[0]), float(reduced.doubt[0]) if is_told else 0.0
     return Number(value, _integrated(units) if output.type == "integral" else units, doubt)
 

@@ -21,7 +21,7 @@ from nivel.lazy import Struct, field, replace
 from nivel.machine.study.parameter import Output, Reduced
 from nivel.native.processor import lane_count
 from nivel.results.analyses.linear_model import LinearModel
-from nivel.results.curve import RATES, impact_between_frames
+from nivel.results.curve import RATES, unseen_between_frames
 from nivel.results.result import Result
 
 FAILED, NOT_RUN = "failed", "not run"
@@ -113,7 +113,7 @@ def _with_outputs(ran: Ran, task: Task) -> VariantRun:
         and isinstance(found, Result)
         and any(found.selection(name).variable not in RATES for name in reduced)
     ):
-        lacks += filter(None, [impact_between_frames(found)])
+        lacks += unseen_between_frames(found)
     if lacks and run.verdict:
         trust = found.trust.of_derived(*lacks)
         told |= {"verdict": trust.light, "verified": trust.verified, "headline": trust.headline}

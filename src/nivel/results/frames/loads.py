@@ -15,7 +15,6 @@ from nivel.results.curve import (
     Number,
     curve,
     curve_of,
-    impact_between_frames,
     integral,
     integral_of_magnitude,
     largest,
@@ -23,6 +22,7 @@ from nivel.results.curve import (
     peak,
     probed,
     turning_values,
+    unseen_between_frames,
 )
 
 
@@ -99,8 +99,8 @@ def powers(result: Result, period: float | str | None = None) -> "xarray.Dataset
 
 
 def _open(result: Result, lacks: list[str]) -> list[str]:
-    """What is open of loads, with an impact that frames do not show."""
-    return [*lacks, *filter(None, [impact_between_frames(result)])]
+    """What is open of loads, with impacts and pulses that frames do not show."""
+    return [*lacks, *unseen_between_frames(result)]
 
 
 def _open_work(work: Number, both: Number, names: Sequence[str]) -> list[str]:

@@ -11,6 +11,7 @@ from nivel.analysis.curves.corners import corners, with_features
 from nivel.analysis.curves.functions import LawCurve, SideOf, Varying, varying
 from nivel.analysis.curves.missed_impulse import Unseen, beyond_samples, unseen_loads
 from nivel.analysis.curves.path import Path, Steps, path_of, steps_between, steps_of
+from nivel.analysis.curves.pulses import Pulse, largest_pulse
 from nivel.judge.after.checks.accuracy import error_from_finer, extent
 from nivel.judge.after.report import STEPS, Check
 from nivel.judge.after.subject import Run
@@ -273,9 +274,27 @@ def say_unexamined(found: Unexamined) -> Item:
     return Item("unexamined", "green", f"Not examined: {'; '.join(said)}")
 
 
+def look_for_pulses(run: Run) -> Pulse | None:
+    """The function that does most between frames; noted, as numbers that are made from frames know nothing of it."""
+    found = largest_pulse(run.machine, run.result)
+    if found is not None:
+        off = f"{number(found.off)} beyond what frames show at t = {found.time:.6g} s"
+        run.finished.pulse = f"a pulse of {found.name} between frames, {off}"
+    return found
+
+
+def say_pulse(found: Pulse) -> Item:
+    """The line is green: the stored numbers are right."""
+    said = f"Not examined: peaks, work and cycles between frames: {found.name} goes {number(found.off)} beyond what frames show at"
+    return Item(
+        "unexamined", "green", f"{said} t = {found.time:.6g} s; a shorter output_interval shows it", row=found.name
+    )
+
+
 CHECKS = (
     Check("loads", Run, look_at_loads, say_loads, 200, (STEPS,), "Loads", LOADS, "their steps miss {row}", quiet=True),
     Check("sampling", Run, look_between_samples, say_between_samples, 210, (STEPS,), "Sampling", SAMPLING, quiet=True),
     Check("events", (Run,), look_at_events, say_event, 205, (STEPS,), "Events", blind="both pass {row} unseen"),
+    Check("pulses", (Run,), look_for_pulses, say_pulse, 913, line="unexamined"),
     Check("unexamined", (Run,), look_for_unexamined, say_unexamined, 910, (STEPS,), "Not examined"),
 )

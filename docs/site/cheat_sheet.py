@@ -6,6 +6,7 @@ import re
 from html import escape
 from typing import Any
 
+from nivel.elements.forces.drives import Drive
 from nivel.elements.joints import JOINTS
 from nivel.files.joint_parts import DESCRIBED
 from reference import kind_of, parts_of, read_before, sections
@@ -31,7 +32,7 @@ def cheat_sheet() -> str:
     blocks.insert(3, _joints(records["joints"][0]))
     blocks.append(f"<h4>files</h4>{_line('include', Include, ())}{_line('assemblies', Assembly, ())}")
     blocks.append(
-        '<h4>tyres, ground</h4><p class="key">sets of keys for several forces: <b>tyre</b>, <b>ground</b></p>'
+        '<h4>tyres, ground, catalogue</h4><p class="key">sets of keys, named by <b>tyre</b>, <b>ground</b>, <b>part</b></p>'
     )
     blocks.append(f"<h4>parts of elements</h4>{''.join(_line(_title(part), part, ()) for part in used)}")
     return "\n".join(
@@ -55,7 +56,12 @@ def _block(section: str, records: list[type]) -> str:
     common = set.intersection(*fields) if len(records) > 2 else set()
     shared = [name for name in _fields(records[0]) if name in common]
     head = f'<p class="key"><em>all</em> {_keys(records[0], shared)}</p>' if shared else ""
-    lines = [_line(kind_of(record) or "", record, shared) for record in records]
+    drives = [record for record in records if issubclass(record, Drive)]
+    of_drives = [name for name in _fields(drives[0]) if name in Drive.model_fields] if drives else []
+    if drives:
+        head += f'<p class="key"><em>{", ".join(map(kind_of, drives))}</em> {_keys(drives[0], of_drives)}</p>'
+    known = {record: of_drives if record in drives else shared for record in records}
+    lines = [_line(kind_of(record) or "", record, known[record]) for record in records]
     return f"<h4>{section}</h4>{head}{''.join(lines)}"
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.elements.contacts.height_field import MOST
-from nivel.files.outline import NAMING, SETS, section_of
+from nivel.files.outline import NAMING, SETS, SHARING, section_of
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree
 from nivel.machine.core.record import unknown_word
@@ -34,31 +34,34 @@ def spread_sets(tree: Tree) -> None:
         sets = section_of(tree, section)
         tree.data.pop(section, None)
         known: set[str] = set()
-        for name, force in section_of(tree, "forces").items():
-            if not isinstance(force, dict) or key not in force or force.get("type") not in NAMING:
+        sharing = [(of, name, each) for of in SHARING[section] for name, each in section_of(tree, of).items()]
+        for of, name, element in sharing:
+            if key not in element or (section != "catalogue" and element.get("type") not in NAMING):
                 continue
-            named = force.pop(key)
+            named = element.pop(key)
             if not isinstance(named, str) or named not in sets:
                 given = named if isinstance(named, str) else shown(named)
                 message = unknown_word(given, list(sets), f"entry of `{section}`")
-                tree.report(("forces", name, key), message, breaks=("forces", name))
+                tree.report((of, name, key), message, breaks=(of, name))
                 continue
-            spread = _spread(tree, sets[named], (section, named), name, force)
+            spread = _spread(tree, sets[named], (section, named), (of, name), element)
             if named in known:  # the same fault of a second force says nothing new
                 tree.broken |= spread
             known.add(named)
 
 
-def _spread(tree: Tree, keys: dict[str, Any], place: tuple[str, str], name: str, force: dict[str, Any]) -> set[Path]:
-    """Put the keys of the set at `place` into the force `name`, with where they stand. Returns their paths there."""
+def _spread(
+    tree: Tree, keys: dict[str, Any], place: tuple[str, str], at: tuple[str, str], element: dict[str, Any]
+) -> set[Path]:
+    """Put the keys of the set at `place` into the element `at` a place, with where they stand. Returns their paths there."""
     spread: set[Path] = set()
     for word, value in keys.items():
-        if word in force or word in NAMING[force["type"]]:
+        if word in element or word in NAMING.get(element.get("type", ""), ()):
             continue
-        force[word] = deepcopy(value)
-        tree.copy_places((*place, word), ("forces", name, word))
-        tree.files[("forces", name, word)] = tree.file_of((*place, word))
-        spread.add(("forces", name, word))
+        element[word] = deepcopy(value)
+        tree.copy_places((*place, word), (*at, word))
+        tree.files[(*at, word)] = tree.file_of((*place, word))
+        spread.add((*at, word))
     return spread
 
 

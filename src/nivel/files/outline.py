@@ -15,7 +15,10 @@ from nivel.machine.uses.references import SECTIONS
 
 FORMAT: Final = 1
 VALUES: Final = ("parameters", "functions")  # sections of what has no keys of its own
-SETS: Final = {"tyres": "tyre", "ground": "ground"}  # sections of keys that forces share, and the key that names one
+# sections of keys that elements share, and the key that names one
+SETS: Final = {"tyres": "tyre", "ground": "ground", "catalogue": "part"}
+# whose elements name one
+SHARING: Final = {"tyres": ("forces",), "ground": ("forces",), "catalogue": ("hydraulics", "fluids", "forces")}
 # types of forces that name a set, and keys of `ground` that they do not have
 NAMING: Final = {
     "tyre": ("soil",),

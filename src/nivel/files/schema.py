@@ -6,7 +6,7 @@ from typing import Any
 from nivel.files.include import KEY as MASS_PROPERTIES
 from nivel.files.include import Include
 from nivel.files.joint_parts import BACKLASH, DESCRIBED, FILLED, MORE, RECORDS, STOPS
-from nivel.files.outline import FORMAT, SETS
+from nivel.files.outline import FORMAT, SETS, SHARING
 from nivel.lazy import nivel
 from nivel.machine.core.record import Record
 from nivel.machine.laws.time_function import CURVE
@@ -37,9 +37,15 @@ def schema() -> dict[str, Any]:
         "ground": {word: tyre["properties"][word] for word in ("plane", "heights", "grip")}
         | {"soil": on_soil[0]["properties"]["soil"]},
     }
+    components = [definitions[name] for of in SHARING["catalogue"] for name in _references(properties[of]["items"])]
+    shared["catalogue"] = {word: {} for each in components for word in each["properties"] if word != "name"}
+    naming = {"tyres": (tyre,), "ground": (tyre, contact, *on_soil), "catalogue": components}
     for section, key in SETS.items():
-        for force in (tyre,) if section == "tyres" else (tyre, contact, *on_soil):
-            force["properties"][key] = {"type": "string", "description": f"an entry of `{section}`, whose keys it has"}
+        for element in naming[section]:
+            element["properties"][key] = {
+                "type": "string",
+                "description": f"an entry of `{section}`, whose keys it has",
+            }
     tyre["required"] = ["wheel"]
     for force in on_soil:
         force["required"] = [word for word in force["required"] if word not in shared["ground"]]
@@ -52,6 +58,10 @@ def schema() -> dict[str, Any]:
         _without_name(definitions[name])
     for definition in definitions.values():
         _with_type(definition)
+    for each in components:
+        if needed := [word for word in each.get("required", []) if word != "type"]:
+            each["required"] = [word for word in each["required"] if word == "type"]
+            each["anyOf"] = [{"required": needed}, {"required": [SETS["catalogue"]]}]
     for word in ("assembly", "simulation"):
         properties[word] = {"anyOf": [properties[word], {"type": "null"}]}
     one = [{"type": "string"}, included]
@@ -68,7 +78,7 @@ def schema() -> dict[str, Any]:
         },
         "assemblies": _by_name(assembly, "parts that stand in files of their own"),
         **{
-            section: _by_name(_closed(words), f"keys that several forces share, by the key `{SETS[section]}`")
+            section: _by_name(_closed(words), f"keys that several elements share, by the key `{SETS[section]}`")
             for section, words in shared.items()
         },
         **properties,

@@ -21,7 +21,7 @@ from nivel.files.csv_tables import read_csv_tables
 from nivel.files.include import include, place_body_files, read_mass_properties
 from nivel.files.joint_parts import add_joint_parts
 from nivel.files.mesh_file import read_meshes
-from nivel.files.outline import NAMING, SETS, VALUES, Known, as_part, check_sections, check_start, section_of
+from nivel.files.outline import NAMING, SETS, SHARING, VALUES, Known, as_part, check_sections, check_start, section_of
 from nivel.files.overrides import in_order, override, prefix_of, with_units
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
@@ -168,7 +168,7 @@ class Scope(Struct):
             as_part(tree, assembly.only, f"`assemblies.{name}: {{file: {assembly.file}, only: [bodies, joints]}}`")
             nivel.files.assembly.given_parameters(tree, *self.user)
         touching = _has_contacts(tree)
-        if touching:
+        if touching or any("part" in each for of in SHARING["catalogue"] for each in section_of(tree, of).values()):
             nivel.files.height_file.spread_sets(tree)
         add_joint_parts(tree)
         read_meshes(tree, self.sources)

@@ -393,7 +393,7 @@ def test_control_and_drives(integrator):
 
 
 def test_soil_is_pressed_cut_and_carried():
-    """A wheel that sinks in, a blade that takes in more than it keeps, a track that sinks in and one on hard ground."""
+    """A wheel that sinks in, a blade with more than it keeps, one that catches it, a track that sinks in and one on hard ground."""
     level = {"size": [3, 3], "function": "0", "points": [31, 31]}
     soil = {"plane": "floor", "heights": level, "soil": {"cohesion": 1e3, "period": STEP}}
     hub = {"body": "roller", "axis": [0, 1, 0]}
@@ -403,10 +403,13 @@ def test_soil_is_pressed_cut_and_carried():
         return {"type": "track", "contact": ends, "sprocket": hub, "radius": 0.2, "width": 0.2, "patches": 2}
 
     edge = [{"body": "bucket", "position": [0.1, y, 0]} for y in (0.2, -0.2)]
+    tail = [{"body": "box", "position": [-0.9, y, 0]} for y in (0.2, -0.2)]
+    opening = [{"body": "box", "position": [x, y, 0]} for x, y in ((-0.8, -0.5), (0.8, 0.5))]
     sections = {
         "bodies": {
             "roller": solid(position=[-0.5, 0, 0.25], velocity=[1, 0, 0], angular_velocity=[0, 3, 0]),
             "bucket": solid(position=[0.4, 0, -0.15], velocity=[5, 0, 0]),
+            "box": solid(position=[0.5, 0, -0.9]),
             "crawler": solid(position=[0, 1, -0.02], velocity=[0.5, 0, 0]),
             "tractor": solid(position=[0, -1, -0.01], velocity=[-0.5, 0, 0]),
         },
@@ -414,6 +417,7 @@ def test_soil_is_pressed_cut_and_carried():
         "forces": {
             "rolls": {"type": "soil-wheel", "wheel": hub, "radius": 0.3, "width": 0.2, **soil},
             "digs": {"type": "blade", "edge": edge, "capacity": 1e-3, **soil},
+            "catches": {"type": "blade", "edge": tail, "capacity": 1.0, "opening": opening, **soil},
             "crawls": {**belt("crawler"), **soil},
             "drives": {**belt("tractor"), "plane": "floor", "heights": level},
         },

@@ -529,7 +529,9 @@ EVERYTHING = {
             "rake": "45 deg",
             "floor": "20 cm",
             "capacity": "1.5 m^3",
+            "cast": ["-50 cm", "30 cm"],
             "load_at": {"body": "box", "position": [-0.5, 0, 0]},
+            "opening": [{"body": "box", "position": [-1, 1, 1]}, {"body": "box", "position": [1, -1, 1]}],
             "plane": "base",
             "heights": {"size": [4, 2], "function": "0.1*x", "points": [41, 21]},
             "soil": {

@@ -175,6 +175,7 @@ MENTIONS: Final = (
     "valves",
     "wheel",
     "edge",
+    "opening",
     "load_at",
     "contact",
     "sprocket",

@@ -147,6 +147,31 @@ def test_a_blade_that_is_pulled_has_mckyes_draught(speed):
     assert drawn == pytest.approx(most * math.sin(rho + delta) + intake, rel=5e-3)
 
 
+def test_a_plough_that_casts_aside_has_mckyes_draught_and_leaves_its_furrow():
+    rho, phi, delta, depth, width = 45 * DEGREES, 35 * DEGREES, 23 * DEGREES, 0.2, 1.0
+    soil = {"cohesion": 5e3, "density": 16e3 / G, "friction_angle": phi, "tool_friction": delta}
+    sections = bucket(rake=rho, capacity=1e-9, soil=soil, cast=[-0.5, -1.2])
+    for name in ("left", "right"):
+        sections["markers"][name]["position"][2] = -1.0 - depth
+    found = simulate(
+        {**sections, "gravity": [0, 0, -G], "drivers": {"pull": {"coordinate": "rail.displacement", "value": "time"}}}
+    )
+    beta = failure_angle(rho, phi, delta)
+    below = math.cos(rho + delta) + math.sin(rho + delta) / math.tan(beta + phi)
+    cohesion = (1.0 + 1.0 / math.tan(beta) / math.tan(beta + phi)) / below
+    most = width * depth * (16e3 * depth * wedge_factor(rho, beta, phi, delta) + 5e3 * cohesion)
+    # nothing is carried, so nothing is accelerated: the draught is the force of the wedge alone
+    assert found.array("driver.pull.effort")[-1] == pytest.approx(most * math.sin(rho + delta), rel=1e-9)
+    assert np.abs(found.array("force.digging.balance")).max() < 1e-12
+    heights = next(iter(found.terrains.values())).at(found.time[-1])
+    furrow, bank = (
+        heights[100, 28:50],
+        heights[76, 28:50],
+    )  # at y 0 and -1.2, behind the edge, which came from x -4 to -2
+    assert furrow.mean() < 1.0 - 0.5 * depth
+    assert bank.mean() > 1.0 + 0.25 * depth
+
+
 @pytest.mark.parametrize("coordinates", ["absolute", "relative"])
 def test_what_is_taken_in_keeps_momentum_volume_and_energy(coordinates):
     # without gravity soil has no strength: only its mass acts
@@ -163,6 +188,44 @@ def test_what_is_taken_in_keeps_momentum_volume_and_energy(coordinates):
         assert np.abs(each.array("force.digging.balance")).max() < 1e-12
         assert np.abs(each.array("energy_error")).max() < 1e-9 * 1000.0
         assert each.trust.verdict == "green"
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_what_falls_into_a_box_is_its_mass_and_keeps_momentum_and_volume(coordinates):
+    sections = bucket(capacity=0.05)
+    sections["bodies"]["box"] = {
+        "mass": 300,
+        "inertia": [60, 60, 60],
+        "position": [-2, 0, 0.5],
+        "velocity": [0.5, 0, 0],
+    }
+    sections["joints"]["way"] = {
+        "type": "translational",
+        "bodies": ["ground", "box"],
+        "point": [-2, 0, 0.5],
+        "axis": [1, 0, 0],
+    }
+    at = {name: {"body": "box", "position": [x, y, 0]} for name, (x, y) in
+          {"tail_left": (-0.9, -0.6), "tail_right": (-0.9, 0.6), "near": (0.8, -0.6), "far": (-0.8, 0.6)}.items()}  # fmt: skip
+    sections["markers"] |= at
+    soil = {key: sections["forces"]["digging"][key] for key in ("plane", "heights", "soil")}
+    sections["forces"]["catching"] = {
+        "type": "blade",
+        "edge": ["tail_left", "tail_right"],
+        "capacity": 3.0,
+        "opening": ["near", "far"],
+        **soil,
+    }
+    found = simulate(sections, coordinates=coordinates, output_interval=1e-3)
+    dug, caught = (found.array(f"force.{name}.load") for name in ("digging", "catching"))
+    speed = found.array("velocity")[:, :, 0]
+    for load, own, momentum, v in ((dug, 500.0, 1000.0, speed[:, 0]), (caught, 300.0, 150.0, speed[:, 1])):
+        assert (own + load[:-1]) * v[1:] == pytest.approx(momentum, rel=1e-12)
+    assert dug[-1] == pytest.approx(0.05 * 1700.0, rel=1e-12)
+    assert 100.0 < caught[-1] < 1000.0
+    for name in ("digging", "catching"):
+        assert np.abs(found.array(f"force.{name}.balance")).max() < 1e-12
+    assert np.abs(found.array("energy_error")).max() < 1e-9 * 1000.0
 
 
 def test_digging_has_a_second_run_and_the_same_end_by_another_method():

@@ -173,12 +173,20 @@ def with_stiff_beams(machine: MachineRecord) -> MachineRecord:
 
 SOFT: Final = 0.2  # frequency, or rate of decay, times the step
 CORNER: Final = 4.0  # mass of a solid over that which a corner of it feels
+ON_GROUND: Final = (
+    "tyre",
+    "track",
+    "blade",
+    "soil-wheel",
+)  # types of forces that are soft beside any step that they bear
 WAITING: Final = ("inputs",)  # signals that the motion does not change
 IMPACT: Final = 3.0  # normal force over weight, of bodies set down
 
 
 def is_soft(machine: MachineRecord, force: ForceElement) -> bool:
     """Whether no motion of a body that the force alone makes is quicker than some steps."""
+    if force.type in ON_GROUND:
+        return True
     match force:
         case PointForce() | Torque() | Hand():
             return not _follows_motion(machine, force)

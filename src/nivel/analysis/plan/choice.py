@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from nivel.analysis.plan.beam_facts import goes_by_circuits, only_modes_are_stiff
+from nivel.analysis.plan.beam_facts import ON_GROUND, goes_by_circuits, only_modes_are_stiff
 from nivel.analysis.plan.settings import FRAMES
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
@@ -97,7 +97,7 @@ def integrators_for(machine: MachineRecord) -> tuple[tuple[str, str], ...]:
         impacts = any(isinstance(force, Contact | Contacts | Stop) for force in machine.forces)
         names = (FOR_STIFF, "bdf", "generalised-alpha") if impacts else ("generalised-alpha", FOR_STIFF, "bdf")
         return (*((name, STIFF_BEAMS) for name in names), ("dopri5", EXPLICIT_BEAMS), ("rk4", FIXED))
-    if any(force.type in ("tyre", "track", "blade", "soil-wheel") for force in machine.forces):
+    if any(force.type in ON_GROUND for force in machine.forces):
         return (("rk4", TYRES), (FOR_STIFF, TOLERANT))
     if any(force.sticks for force in machine.forces):
         return ((FOR_STIFF, STICKING), ("dopri5", STICKING), ("rk4", FIXED))

@@ -2,7 +2,8 @@
 
 **Blade.** The wedge before the edge resists with the share s of its force, ds = (1 - s) dx/l into the soil and s dx/l out of it, so that
 it never pulls and stands still at rest. The floor behind the edge bears as a strip foundation (Terzaghi; N_γ of Vesic 1973), likewise.
-What is cut is carried up to the capacity, and else pushed ahead. What the mouth does not hold falls out. What is carried is mass of the
+What is cut is carried up to the capacity, and else pushed ahead. What the mouth does not hold falls out, onto the ground or into the
+opening of another one. What is carried is mass of the
 body from one sample to the next; it was at rest, so its impulse acts on the body until the next sample: momentum is kept.
 
 **Wheel.** Pressure k z^n is a yield that memory follows, with elastic return; shear is (c + p tan φ) s, ds = (v - |v| s) dt/K for each
@@ -22,6 +23,7 @@ from nivel.elements.contacts.soil_cells import (
     failure_angle,
     mobilised_rate,
     nodes_between,
+    open_mouth,
     pour,
     pressure_at,
     seen_from_corner,
@@ -146,15 +148,24 @@ def cut_with_blade(machine, index, n, cells):
     markers, bodies, slot, number = record.markers, record.bodies, index[ForceRow.SLOT], cells.number
     edge, fx, fy, down, _ = look_at_edge(markers, index, n, cells)
     before, known = cells.volume[slot], record.elements.state[index[ForceRow.CHANGED]] >= 0.0
-    taken = cut(cells, edge, cells.edge[slot]) if known else 0.0
+    corner, far, plane = index[ForceRow.NEAR], index[ForceRow.FAR], index[ForceRow.PLANE]
+    if corner != NONE:
+        a, b = (
+            seen_from_corner(cells, markers, plane, markers.r[corner]),
+            seen_from_corner(cells, markers, plane, markers.r[far]),
+        )
+        open_mouth(cells, slot, a, b, fx, fy)
+    dug = cut(cells, edge, cells.edge[slot]) if known else 0.0
+    taken = dug + cells.fallen[slot]
+    cells.fallen[slot] = 0.0
     holds = n[ForceRow.CAPACITY] * min(max(1.0 - max(down, 0.0) / number[SoilRow.REPOSE], 0.0), 1.0)
     excess = max(before + taken - holds, 0.0)
     ahead = min(excess, taken)
     falls = (excess - ahead) * (1.0 - np.exp(-number[SoilRow.PERIOD] / FALLS))
     if ahead + falls > 0.0:
-        pour(cells, edge, fx, fy, ahead + falls)
+        pour(cells, edge, fx, fy, ahead + falls, n[ForceRow.CAST_AHEAD], n[ForceRow.CAST_LEFT])
     cells.volume[slot] = before + (taken - ahead) - falls
-    cells.moved[slot] += taken + falls
+    cells.moved[slot] += dug + falls
     b, m = markers.body[index[ForceRow.LEFT]], index[ForceRow.LOAD]
     v, w = markers.rdot[m], bodies.omega[b]
     (mass, inertia), (mass_before, inertia_before) = load_of(cells, cells.volume[slot]), load_of(cells, before)
@@ -254,7 +265,7 @@ def apply(machine, index, n, t):
         put(out, first, told[:3])
         put(out, first + 3, told[3:])
         power, behind = told[1], MOVED_OUT
-    put(out, first + behind, (cells.moved[slot], sums[ADDED] + cells.volume.sum(), sums[BEYOND]))
+    put(out, first + behind, (cells.moved[slot], sums[ADDED] + cells.volume.sum() + cells.fallen.sum(), sums[BEYOND]))
     record.control.power[1] -= power
     left = 1.0 - passed / period
     if slot == 0:

@@ -75,9 +75,10 @@ class SoilRow(Row):
 
 
 class ForceRow(Row):
-    """A force on soil: of a WHEEL, whose marker has z along the axle; of a blade, with markers of both ends of the edge and of the middle
-    of the LOAD, and two shares as states; or of a track, also on hard ground, with markers of the ends of its belt and of its SPROCKET,
-    shares of what resists ahead (PUSH) and behind (BEARING), and two SHARES of each patch, as states.
+    """A force on soil: of a WHEEL, whose marker has z along the axle; of a blade, with markers of both ends of the edge, of the middle of
+    the LOAD, of the NEAR and the FAR corner of what soil falls into, and two shares as states; or of a track, also on hard ground, with
+    markers of the ends of its belt and of its SPROCKET, shares of what resists ahead (PUSH) and behind (BEARING), and two SHARES of each
+    patch, as states.
 
     PLANE : a marker; CHANGED : the state that is the time of the last change; GRIP : a function; UNEVEN : whether hard ground has heights.
     WORK : of each patch its normal and its strength [N], and behind them the heights of hard ground."""
@@ -91,6 +92,8 @@ class ForceRow(Row):
     left: int = NONE
     right: int = NONE
     load: int = NONE
+    near: int = NONE
+    far: int = NONE
     push: int = NONE
     bearing: int = NONE
     front: int = NONE
@@ -103,6 +106,8 @@ class ForceRow(Row):
     rake: float = 0.0
     capacity: float = 0.0
     floor: float = 0.0
+    cast_ahead: float = 0.0
+    cast_left: float = 0.0
     radius: float = 0.0
     width: float = 0.0
     shear_length: float = 0.0
@@ -153,6 +158,8 @@ class SoilUnit:
             moved=np.zeros(forces),
             impulse=np.zeros((forces, 6)),
             edge=np.zeros((forces, 6)),
+            mouth=np.zeros((forces, 7)),
+            fallen=np.zeros(forces),
             body=np.zeros((forces, 13)),
         )
         self.handle = Handle(self.record)

@@ -13,8 +13,9 @@ import numpy as np
 
 from nivel.elements.contacts.soil import SoilRow
 from nivel.kernels.algebra.analytic import arctan2, maximum, minimum, real
-from nivel.kernels.algebra.vectors import minus, plus, seen
+from nivel.kernels.algebra.vectors import minus, plus, put, seen
 from nivel.kernels.elements.soil import ADDED, BEYOND, COUNT, FIRST, STAMP, STORED
+from nivel.kernels.record.record import NONE
 from nivel.native.function import leaf, part, stage
 
 LINES, FARTHEST = 4, 100  # places along an edge at which the wedge is looked at, and cells ahead at most
@@ -185,9 +186,32 @@ def cut(cells, edge, left):
     return volume
 
 
+@leaf
+def open_mouth(cells, slot, a, b, fx, fy):
+    """Say where soil falls into what carries it: between two corners, in the direction (fx, fy) and across it."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    put(cells.mouth[slot], 0, (a[0], a[1], fx))
+    put(cells.mouth[slot], 3, (fy, dx * fx + dy * fy, dy * fx - dx * fy))
+    cells.mouth[slot, 6] = max(a[2], b[2])
+
+
+@leaf
+def mouth_below(cells, x, y, z):
+    """The number of the force into whose mouth soil falls from a place; NONE where it falls on the ground."""
+    for slot in range(cells.mouth.shape[0]):
+        its = cells.mouth[slot]
+        along, across = (x - its[0]) * its[2] + (y - its[1]) * its[3], (y - its[1]) * its[2] - (x - its[0]) * its[3]
+        if z > its[6] and 0.0 < along * its[4] < its[4] ** 2 and 0.0 < across * its[5] < its[5] ** 2:
+            return slot
+    return NONE
+
+
 @part
-def pour(cells, edge, fx, fy, volume):
-    """Put a volume [m³] on the nodes before an edge (6,) that looks along (fx, fy), by equal shares."""
+def pour(cells, edge, fx, fy, volume, forth, left):
+    """Put a volume [m³] on the nodes before an edge (6,) that looks along (fx, fy), by equal shares, or into a mouth below.
+
+    It is cast so far forth and to the left of there [m].
+    """
     cell = cells.number[SoilRow.CELL]
     n, m = cells.h.shape
     dx, dy = edge[3] - edge[0], edge[4] - edge[1]
@@ -195,7 +219,13 @@ def pour(cells, edge, fx, fy, volume):
     each = volume / (across * POURED)
     for k in range(across * POURED):
         a, ahead = (k // POURED + 0.5) / across, (k % POURED + 1.5) * cell
-        u, v = (edge[0] + a * dx + ahead * fx) / cell, (edge[1] + a * dy + ahead * fy) / cell
+        ahead += forth
+        x, y = edge[0] + a * dx + ahead * fx - left * fy, edge[1] + a * dy + ahead * fy + left * fx
+        below = mouth_below(cells, x, y, edge[2] + a * (edge[5] - edge[2]))
+        if below != NONE:
+            cells.fallen[below] += each
+            continue
+        u, v = x / cell, y / cell
         i, j = np.int64(min(max(np.floor(u + 0.5), 0.0), n - 1.0)), np.int64(min(max(np.floor(v + 0.5), 0.0), m - 1.0))
         if np.abs(u - i) > 0.6 or np.abs(v - j) > 0.6:
             cells.sum[BEYOND] += each

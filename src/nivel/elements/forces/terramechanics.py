@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -28,8 +28,8 @@ from nivel.machine.core.coefficient import PositiveAngle, Volume
 from nivel.machine.core.element import ForceElement
 from nivel.machine.core.marker import MarkerPlace, TwoMarkers
 from nivel.machine.core.record import GROUND, Problem, superfluous
-from nivel.machine.given import Field, Maybe, OneRecord
-from nivel.machine.units.quantity import PositiveLength, Whole
+from nivel.machine.given import Field, Maybe, OneRecord, TwoNumbers
+from nivel.machine.units.quantity import Length, PositiveLength, Whole
 
 
 class Blade(OnSoil):
@@ -51,8 +51,17 @@ class Blade(OnSoil):
     rake: PositiveAngle = Field("from where the blade looks up to its face", default=0.87)
     floor: PositiveLength = Field("length behind the edge that bears on the soil", default=0.1)
     capacity: Maybe[Volume] = Field("that a bucket carries", default=None, absent="a blade pushes all")
+    cast: Maybe[TwoNumbers[Length]] = Field(
+        "how far ahead of its edge, and to the left of there, what it does not carry falls",
+        default=None,
+        absent="just ahead",
+    )
     load_at: Maybe[MarkerPlace] = Field(
         "marker of the same body: middle of what a bucket carries", default=None, absent="the left end"
+    )
+
+    opening: Maybe[TwoMarkers] = Field(
+        "two markers of the same body: opposite corners of a rectangle into which soil falls", default=None
     )
 
     def problems(self) -> Iterator[Problem]:
@@ -133,8 +142,10 @@ PRESSED_IN, DAMPING_TIME = 0.01, 0.01  # [m] under the weight, and d/c [s], of a
 
 def add_blade(builder: SystemBuilder, force: Blade) -> None:
     """A blade, with two shares of its resistances as states."""
-    left, right, load = map(builder.end, (*force.edge, force.load_at or force.edge[0]))
-    bodies = {builder.markers.body[each] for each in (left, right, load)}
+    left, right, load, *opening = map(
+        builder.end, (*force.edge, force.load_at or force.edge[0], *(force.opening or ()))
+    )
+    bodies = {builder.markers.body[each] for each in (left, right, load, *opening)}
     body = dict(enumerate(builder.machine.bodies)).get(max(bodies))  # the ground has none
     if len(bodies) > 1 or body is None or body.point_mass or body.flexible:
         raise ModelError(Fault.at(f"forces.{force.name}.edge", "all markers of a blade stand on one rigid body"))
@@ -148,8 +159,9 @@ def add_blade(builder: SystemBuilder, force: Blade) -> None:
         builder.own_state(StateFact(f"{force.name}.{name}", "1", f"share of the {text} of {force.name}", 0.0, 1e-2))
         for name, text in (("push", "cutting force"), ("bearing", "bearing force"))
     )
-    row = ForceRow.of(force, left=left, right=right, load=load, push=push, bearing=bearing, **add_soil(builder, force))
-    builder.add(apply, row)
+    columns: dict[str, Any] = add_soil(builder, force) | dict(zip(("near", "far"), opening, strict=False))
+    columns |= dict(zip(("cast_ahead", "cast_left"), force.cast or (), strict=False))
+    builder.add(apply, ForceRow.of(force, left=left, right=right, load=load, push=push, bearing=bearing, **columns))
 
 
 def add_wheel(builder: SystemBuilder, force: SoilWheel) -> None:

@@ -25,6 +25,8 @@ class Cells(NamedTuple):
     moved: F1  # (forces,) [m³] cut, dropped or pressed down so far
     impulse: F2  # (forces, 6) [N s, N m s] that takes along what came in at the last sample
     edge: F2  # (forces, 6) [m] where its ends were then
+    mouth: F2  # (forces, 7) into which soil falls: x, y of a corner, the unit vector along it, its sides, both signed, and its height [m]
+    fallen: F1  # (forces,) [m³] that fell into it, and is carried from its next sample on
     body: (
         F2  # (forces, 13) of the body without load, where it is known: mass [kg], centre [m], inertia about it [kg m²]
     )

@@ -149,7 +149,7 @@ def _of_force(force: Any, index: Index, place: Place) -> Faults:
         for at, plane in enumerate(as_list(entry(force, "planes"))):
             yield from _of_end(plane, index, (*place, "planes", at))
         return
-    for key in ("edge", "contact"):
+    for key in ("edge", "contact", "opening"):
         for at, end in enumerate(as_list(entry(force, key))):
             yield from _of_end(end, index, (*place, key, at))
     for key in ("load_at", "wheel", "sprocket", "plane"):

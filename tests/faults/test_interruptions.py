@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 import warnings
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 
@@ -216,6 +217,21 @@ def test_a_data_file_for_which_there_is_no_room_costs_no_work(folder):
     assert not Path("found.nc").exists()
     assert session("sweep", "--resume")[:2] == (0, 0)
     assert Path("found.nc").exists()
+
+
+@pytest.mark.parametrize("words", [("--fmu", "m.fmu"), pytest.param(("--c", "lib"), marks=pytest.mark.full)])
+def test_an_export_that_is_cut_off_leaves_nothing(words, folder):
+    """Where the disk is full, soon or later, in one sentence."""
+    command, whole = [sys.executable, "-B", "-m", "nivel", "export", "machine.yaml", *words], Path(words[1])
+    for size in (100, 9_000):
+        limits = (size, resource.RLIM_INFINITY)
+        limited = partial(resource.setrlimit, resource.RLIMIT_FSIZE, limits)
+        done = subprocess.run(command, preexec_fn=limited, capture_output=True, text=True, check=False)
+        assert done.returncode == 2, done.stderr
+        assert done.stderr.count("cannot be written: file too large") == 1
+        assert "Traceback" not in done.stderr
+        assert not whole.exists()
+        assert not list(folder.glob(".*.part"))
 
 
 def test_what_is_written_is_whole_or_as_it_was(tmp_path):

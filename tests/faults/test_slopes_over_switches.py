@@ -231,3 +231,18 @@ def test_by_default_a_rope_that_catches_a_fall_twice_has_slopes(tmp_path):
     slope = nivel.load(path).gradient("b.position.z", "parameters.l")["d(b.position.z)/d(parameters.l)"]
     assert slope.attrs["verdict"] == "green"
     assert abs(float(slope) - exact) <= max(slope.attrs["estimated_error"], 1e-6)
+
+
+def test_by_default_what_comes_to_rest_by_friction_has_slopes(tmp_path):
+    """From 1 m/s, after v²/(2 μ N/m) with N = 8 N and 1 kg; in the same words whatever the coefficient is, and without a warning."""
+    path = tmp_path / "sledge.yaml"
+    path.write_text(
+        "format: 1\ngravity: [0, 0, 0]\nparameters: {mu: 0.3}\nbodies: {a: {mass: 1, inertia: [1, 1, 1], velocity: [1, 0, 0]}}\n"
+        "joints: {r: {type: translational, bodies: [ground, a], point: [0, 0, 0], axis: [1, 0, 0]}}\n"
+        "forces: {f: {type: friction, coordinate: r, model: stiction, coefficient: mu, normal_load: 8}}\nsimulation: {duration: 1}\n"
+    )
+    found = nivel.load(path).gradient("r.displacement", ["bodies.a.velocity.0", "parameters.mu"])
+    for name, exact in (("bodies.a.velocity.0", 1.0 / 2.4), ("parameters.mu", -1.0 / (16.0 * 0.3**2))):
+        slope = found[f"d(r.displacement)/d({name})"]
+        assert slope.attrs["verdict"] == "green"
+        assert abs(float(slope) - exact) <= max(slope.attrs["estimated_error"], 1e-9)

@@ -256,7 +256,7 @@ def _refuse_unfit(nominal: MachineMemory, samples: Sequence[Sample], places: NDA
 
 def _power_of(y: Array, powers: Array) -> Array:
     """z of numbers y (…, n) with powers (n,)."""
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         return np.where(powers == 1.0, y, np.abs(y) ** (1.0 / powers))
 
 

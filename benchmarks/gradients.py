@@ -14,7 +14,7 @@ import numpy as np
 import nivel
 from nivel.analysis.gradients.gradient import Varied
 from nivel.analysis.gradients.outputs import parameters_of
-from nivel.analysis.gradients.slopes import WholeLoop, run_whole, seed
+from nivel.analysis.gradients.slopes import WholeLoop, memory_of, run_whole, seed, seeds_of
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import plan_run
 from nivel.analysis.run.dynamics import march, start_loop
@@ -71,7 +71,7 @@ def cost(path, parameters, settings, duration=DURATION, rounds=ROUNDS):
         loop = start_loop(varied.prepared, plan.settings)
         whole = WholeLoop(loop)
         begin = time.thread_time()
-        seed(whole, loop, chosen, varied.beside)
+        seed(seeds_of(memory_of(loop), chosen, varied.beside), whole.machine, whole.run)
         seeding = time.thread_time() - begin
         begin = time.thread_time()
         run_whole(whole)

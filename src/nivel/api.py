@@ -309,20 +309,35 @@ class Machine(Model):
         parameters: Sequence[str] | str,
         *,
         check: bool = True,
+        analysis: Analysis = "run",
+        analysis_settings: Mapping[str, Any] | None = None,
         listener: Listener | None = None,
         **settings: Unpack[RunSettingsDict],
     ) -> xarray.Dataset:
-        """Derivatives of what a run computes with respect to numbers of the machine, exact to round-off.
+        """Derivatives of what a run, or another analysis, computes with respect to numbers of the machine, exact to round-off.
 
         outputs : names of the result, at the end of the run, ``"crank.angle"``; or ``"crank.angle at 0.5 s"``, ``"max(crank.angle)"``,
         `min`, `rms`, `mean`, `integral`; ``"time(lift)"``, when an event came. parameters : paths of numbers, as of `sweep`,
-        ``"bodies.rod.mass"``. check : compare each with differences of six runs; settings : as of `simulate`.
+        ``"bodies.rod.mass"``. check : compare each with differences of six runs; settings : as of `simulate`. analysis : `run`, or
+        `statics`, `kinematics`, `linearise` or `inverse` with their `analysis_settings`, and outputs as of `optimise`, each one number.
 
         The dataset has the outputs, and their slopes as ``"d(crank.angle)/d(bodies.rod.mass)"``, with `units`, `estimated_error` and
         `verdict`: green, amber where the differences do not confirm a slope, red where they contradict it. Its attributes have the worst
         verdict and its `headline`. The compiled code runs on dual numbers, seven parameters at a time; that is compiled on first use.
         Raises ModelError where names, paths or methods have no gradients, SolveError where a run fails.
         """
+        if analysis != "run":
+            chosen = self._searched(settings, listener, analysis)
+            with retold(chosen.origin.placed):
+                return nivel.analysis.gradients.analyses.gradient(
+                    chosen,
+                    analysis,
+                    analysis_settings or {},
+                    _names(outputs),
+                    _names(parameters),
+                    checked=check,
+                    listener=listener,
+                )
         chosen, plan = self._ready(settings, listener)
         with retold(chosen.origin.placed):  # what follows takes longer to import
             return nivel.analysis.gradients.gradient.gradient(
@@ -461,10 +476,10 @@ class Machine(Model):
         time_limit [s] : of the processor time of each run, which has no outputs where it takes longer. iterations : of each start, at
         most. accuracy : of the objective, as a share. journal : of a study, which keeps every run. settings : of the runs.
 
-        Slopes are differences; of runs with `exact_slopes` those of `gradient`, for which all outputs are said in words: one run for
-        outputs and slopes. `optimum.dataset` has every variant that was computed. Runs are not verified: look at
-        ``optimum.machine.simulate()``. Raises ModelError where words, paths or limits are not known, or no start has an objective;
-        SolveError where that is because runs fail.
+        Slopes are differences; with `exact_slopes` those of `gradient`, for which all outputs are said in words.
+        `optimum.dataset` has every variant that was computed. Runs are not verified: look at ``optimum.machine.simulate()``.
+        Raises ModelError where words, paths or limits are not known, or no start has an objective; SolveError where that is because
+        runs fail.
         """
         chosen = self._searched(settings, listener, analysis)
         return nivel.analysis.optimise.optimise.optimise(
@@ -481,21 +496,29 @@ class Machine(Model):
                 analysis_settings or {},
                 threads,
                 time_limit,
-                chosen._exact_outputs([objective, *(outputs or {}).values()]) if exact_slopes else None,
+                chosen._exact_outputs([objective, *(outputs or {}).values()], analysis, analysis_settings)
+                if exact_slopes
+                else None,
                 journal,
             ),
             listener=listener,
         )
 
-    def _exact_outputs(self, said: Sequence[str | Callable[..., float]]) -> Exact:
-        """Outputs and their slopes from one run. Raises ModelError for outputs that are functions."""
+    def _exact_outputs(
+        self,
+        said: Sequence[str | Callable[..., float]],
+        analysis: Analysis = "run",
+        settings: Mapping[str, Any] | None = None,
+    ) -> Exact:
+        """Outputs and their slopes from one run, or another analysis. Raises ModelError for outputs that are functions."""
         names = [each for each in said if isinstance(each, str)]
         if len(names) < len(said):
             message = "exact slopes are those of outputs in words, such as 'max(hinge.angle)', not of functions"
             raise ModelError(Fault.at("exact_slopes", message))
 
         def exact(values: Mapping[str, float]) -> tuple[Any, Any]:
-            found = self.with_values(values).gradient(list(dict.fromkeys(names)), list(values), check=False)
+            machine, asked = self.with_values(values), list(dict.fromkeys(names))
+            found = machine.gradient(asked, list(values), check=False, analysis=analysis, analysis_settings=settings)
             rows = [[float(found[f"d({name})/d({path})"]) for path in values] for name in names]
             return numpy.array([float(found[name]) for name in names]), numpy.array(rows)
 
@@ -565,7 +588,7 @@ class Machine(Model):
         ``hinge.angle [deg]``; or (times, values) by name of a result, in SI units. Numbers without history need no times: with
         ``analysis="linearise"`` ``{"mode.1.frequency": 12.0}``, or a list of repeated measurements. parameters : as in `optimise`.
         deviations : standard deviations of the signals, where they are known; else each signal is measured by how much it varies, and the
-        covariance follows from what is left. exact_slopes : those of the run on dual numbers, in place of differences.
+        covariance follows from what is left. exact_slopes : those of `gradient`, in place of differences.
         starts, seed, iterations, accuracy, time_limit, analysis, analysis_settings, journal, settings : as in `optimise`.
 
         `found.covariance` is that of the parameters in their order, `found.undetermined` names those that the measurements do not tell
@@ -577,7 +600,10 @@ class Machine(Model):
             chosen,
             nivel.analysis.optimise.evaluations.box_of(chosen, parameters),
             nivel.analysis.optimise.inputs.signals_of(data, deviations or {}),
-            with_slopes=chosen._with_slopes if exact_slopes else None,
+            with_slopes=chosen._with_slopes if exact_slopes and analysis == "run" else None,
+            exact_of=(lambda names: chosen._exact_outputs(names, analysis, analysis_settings))
+            if exact_slopes and analysis != "run"
+            else None,
             starts=starts,
             seed=seed,
             most=iterations,
@@ -620,24 +646,15 @@ class Machine(Model):
         nothing depends on time: the equilibrium at t = 0 alone. out : result file (NetCDF); in memory if None. force : replace it.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds the states until then).
         """
-        simulation = self.record.simulation
-        own = {
-            "duration": simulation.duration,
-            "coordinates": nivel.machine.settings.values.static_coordinates(simulation.coordinates),
-        }
-        chosen_duration = settings.get("duration") is not None
-        words = nivel.machine.settings.analyses.StaticsSettings
-        asked = nivel.machine.settings.values.settings_of(words, "statics", own | _given(settings))
-        neutral, chosen = nivel.analysis.statics.start.for_statics(self.record, asked)
         with retold(self.origin.placed):
-            methods = nivel.analysis.plan.plan.methods_of(neutral, "newton-euler", chosen)
+            asked, methods = nivel.analysis.statics.free_coordinates.planned(self.record, _given(settings))
         self._refuse_target(out, force)
         entries = nivel.analysis.plan.compilation.statics_entries(methods)
         with self._compiled(entries, listener) as compile_seconds:  # what follows takes longer to import
             return nivel.analysis.statics.run.statics(
                 self.record,
                 asked,
-                chosen_duration=chosen_duration,
+                chosen_duration=settings.get("duration") is not None,
                 source=self.origin.source,
                 out=out,
                 force=force,
@@ -660,13 +677,8 @@ class Machine(Model):
         Raises ModelError where motions are not driven (nothing was computed), SolveError where the machine cannot go on: its `result` holds
         the positions until then, its message says what holds which driver.
         """
-        asked = nivel.machine.settings.analyses.kinematics_settings(self.record, settings)
         with retold(self.origin.placed):
-            refuse(nivel.judge.before.refusals.faults_of(self.record, nivel.judge.before.analyses.OF_KINEMATICS))
-            entries = nivel.analysis.plan.compilation.assembly_entries(self.record)
-            nivel.analysis.plan.compilation.build(entries, listener)
-            machine, asked = nivel.analysis.kinematics.drive.driven(self.record, asked)
-            _, methods = nivel.analysis.plan.plan.neutral(machine, asked.coordinates)
+            machine, methods, asked = nivel.analysis.kinematics.drive.planned(self.record, settings, listener)
         self._refuse_target(out, force)
         entries = nivel.analysis.plan.compilation.kinematics_entries(methods)
         with self._compiled(entries, listener) as compile_seconds:  # what follows takes longer to import

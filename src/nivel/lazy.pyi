@@ -37,6 +37,7 @@ import nivel.analysis.compare
 import nivel.analysis.compare.compare
 import nivel.analysis.compare.compare_grid
 import nivel.analysis.gradients
+import nivel.analysis.gradients.analyses
 import nivel.analysis.gradients.gradient
 import nivel.analysis.gradients.outputs
 import nivel.analysis.interactive
@@ -74,6 +75,7 @@ import nivel.analysis.run.prepared_state
 import nivel.analysis.run.simulate
 import nivel.analysis.run.stepping
 import nivel.analysis.statics
+import nivel.analysis.statics.free_coordinates
 import nivel.analysis.statics.run
 import nivel.analysis.statics.start
 import nivel.analysis.sweep

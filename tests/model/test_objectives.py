@@ -212,7 +212,6 @@ def test_mounts_of_the_example_sag_as_far_as_they_may():
     ("given", "message"),
     [
         ({"analysis": "modal"}, "analysis"),
-        ({"analysis": "statics", "exact_slopes": True}, "belongs to runs"),
         ({"analysis": "statics", "time_limit": 1.0}, "belongs to runs"),
         ({"analysis_settings": {"duration": 1}}, "settings of runs"),
         ({"analysis": "linearise"}, "not in equilibrium"),

@@ -176,3 +176,14 @@ class Unknowns:
             at = self.place[first, 0][:, None] + np.arange(4)
             y[at] = turned(y[at], psi[first[:, None] + np.arange(3)])
         return y
+
+    def position_rates(self, y: Array, psi: Array) -> Array:
+        """(positions,) change of q for tangent increments psi (n,)."""
+        out = np.zeros(self.positions)
+        plain = self.place[:, 1] == NONE
+        out[self.place[plain, 0]] = psi[plain]
+        first = np.flatnonzero(self.place[:, 1] == 0)
+        if len(first):
+            at = self.place[first, 0][:, None] + np.arange(4)
+            out[at] = parameter_rates(y[at], psi[first[:, None] + np.arange(3)])
+        return out

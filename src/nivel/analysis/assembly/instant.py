@@ -20,11 +20,11 @@ from nivel.errors import SolveError
 from nivel.kernels.core.arrays import lanes_of
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import FAMILIES, SHOWN, Family
-from nivel.kernels.record.record import MEASURE, NONE, RESIDUAL
+from nivel.kernels.record.record import MEASURE, RESIDUAL
 from nivel.lazy import Struct
 from nivel.machine.core import vectors
 from nivel.native.duals import DUAL, LANES
-from nivel.system.system import Array, parameter_rates
+from nivel.system.system import Array
 
 Lanes = NDArray[np.float64]
 NOTHING: Lanes = np.zeros(1 + LANES)
@@ -190,30 +190,19 @@ class Instant(Unknowns):
         else:
             psi = np.zeros(self.n)
             psi[self.free[k]] = 1.0
-            own.y[: self.positions, lane] = self.position_rates(psi)
+            own.y[: self.positions, lane] = self.position_rates(self.y, psi)
 
     def beside(self, direction: tuple[Array, Array, Array], size: float) -> tuple[Array, Array]:
         """(r, g one behind the other, their derivative along the direction) at a state that is moved by `size` times a direction, which has
         tangent increments (n,), velocities (n,) and states (S,). v̇ and λ stay what they are."""
         psi, v, x = direction
-        change = np.concatenate([self.position_rates(psi), v, x])
+        change = np.concatenate([self.position_rates(self.y, psi), v, x])
         self._load()
         self.twin.residual.y[: len(change), 0] += size * change
         self.twin.residual.y[: len(change), 1] = change
         self._call()
         found = self.twin.residual.value[: self.n + self.state_count]
         return found[:, 0].copy(), found[:, 1].copy()
-
-    def position_rates(self, psi: Array) -> Array:
-        """(positions,) change of q for tangent increments psi (n,)."""
-        out = np.zeros(self.positions)
-        plain = self.place[:, 1] == NONE
-        out[self.place[plain, 0]] = psi[plain]
-        first = np.flatnonzero(self.place[:, 1] == 0)
-        if len(first):
-            at = self.place[first, 0][:, None] + np.arange(4)
-            out[at] = parameter_rates(self.y[at], psi[first[:, None] + np.arange(3)])
-        return out
 
     def _time(self, slope: float = 0.0) -> NDArray[Any]:
         """The time as a dual number, with this slope along the first direction."""

@@ -11,12 +11,13 @@ import xarray
 
 from nivel.analysis.gradients.check import STEPS, Checked, Slope, check, worst
 from nivel.analysis.gradients.outputs import Array, Output, Parameter, Reduced, outputs_of, parameters_of
-from nivel.analysis.gradients.slopes import Slopes, find_slopes, values_of
+from nivel.analysis.gradients.slopes import Slopes, find_slopes, memory_of, values_of
 from nivel.analysis.plan.choice import FOR_STIFF
 from nivel.analysis.plan.compilation import build, run_entries
 from nivel.analysis.plan.plan import Plan, other_run, plan_run
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.attributes import run_attributes
+from nivel.analysis.preparation.memory import MachineMemory
 from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.run.attempt import FINER, TENTH, refine, with_steps
@@ -89,10 +90,14 @@ class Varied:
         attributes = run_attributes(plan.machine, self._source, prepared, plan.settings, plan.reason)
         return Header(prepared.motion.system.layout, attributes)
 
-    def beside(self, parameter: Parameter, value: float) -> Loop:
-        """The loop at the start of a run with another value of a parameter."""
+    def beside(self, parameter: Parameter, value: float) -> MachineMemory:
+        """The numbers at the start of a run with another value of a parameter."""
         prepared = prepare(self._plan_with({parameter.path: value}).methods)
-        return start_loop(prepared, self.settings, at_switches=True)
+        return memory_of(start_loop(prepared, self.settings, at_switches=True))
+
+    def start(self, settings: RunSettings) -> Loop:
+        """The loop at the start of a run."""
+        return start_loop(self.prepared, settings, at_switches=True)
 
     def run(self, values: Mapping[str, float]) -> Result:
         """The run with other values of parameters; none: the machine as it is. Raises SolveError where it fails."""
@@ -184,7 +189,10 @@ def checked_slopes(
     """Slopes of runs, and how far those of these outputs can be trusted. plain : the run without slopes."""
     listener.say("running on dual numbers")
     refined, share = varied.refined
-    find = partial(find_slopes, varied.prepared, varied.settings, varied.header, parameters, varied.beside, listener)
+    events = varied.prepared.motion.system.events
+    find = partial(
+        find_slopes, varied.start, varied.settings, varied.header, parameters, varied.beside, listener, events
+    )
     if not checked:
         return find()[0], [None] * len(outputs)
     slopes, finer = find(refined)
@@ -248,32 +256,43 @@ def _dataset(
     verdicts: Sequence[Checked | None],
 ) -> xarray.Dataset:
     data: dict[str, Any] = {}
-    outputs_lights: dict[str, str] = {}
     for output, (value, slope, doubt), verdict in zip(outputs, found, verdicts, strict=True):
         units, lights = output.units(plain), _lights(verdict, slope, doubt)
-        outputs_lights[output.label] = worst(lights)
         data[output.label] = _like(output, plain, value, {"units": units, "long_name": output.label})
         errors = np.full_like(slope, np.nan)
         if verdict is not None:
             scale = np.array([each.scale for each in slopes.parameters]).reshape(-1, *[1] * (slope.ndim - 1))
             errors = doubt + verdict.errors / scale
         for k, parameter in enumerate(slopes.parameters):
-            name = f"d({output.label})/d({parameter.path})"
             largest = float(np.max(errors[k])) if np.size(errors[k]) else 0.0
-            attributes = {
-                "units": per(units, parameter.units),
-                "long_name": f"derivative of {output.label} with respect to {parameter.path}",
-                "output": output.label,
-                "parameter": parameter.path,
-                "parameter_value": parameter.value,
-                "estimated_error": largest,
-                "verdict": lights[k],
-            }
+            name, attributes = described(output.label, parameter, units, largest, lights[k])
             data[name] = _like(output, plain, slope[k], attributes)
-    light = worst([*outputs_lights.values()])
-    attributes = {"machine": plain.name, "verdict": light, "headline": HEADLINES[light]}
-    attributes["verdicts"] = json.dumps(outputs_lights)
-    return xarray.Dataset(data, attrs=attributes)
+    return attributed(data, plain.name)
+
+
+def described(label: str, parameter: Parameter, units: str, error: float, light: str) -> tuple[str, dict[str, Any]]:
+    """The name of a slope, and its attributes. units : of the output."""
+    return f"d({label})/d({parameter.path})", {
+        "units": per(units, parameter.units),
+        "long_name": f"derivative of {label} with respect to {parameter.path}",
+        "output": label,
+        "parameter": parameter.path,
+        "parameter_value": parameter.value,
+        "estimated_error": error,
+        "verdict": light,
+    }
+
+
+def attributed(data: Mapping[str, xarray.DataArray], machine: str) -> xarray.Dataset:
+    """Outputs and their slopes with the worst verdict of each output, and of all."""
+    lights: dict[str, list[str]] = {}
+    for each in data.values():
+        if "verdict" in each.attrs:
+            lights.setdefault(each.attrs["output"], []).append(each.attrs["verdict"])
+    verdicts = {label: worst(own) for label, own in lights.items()}
+    light = worst([*verdicts.values()])
+    told = {"machine": machine, "verdict": light, "headline": HEADLINES[light], "verdicts": json.dumps(verdicts)}
+    return xarray.Dataset(data, attrs=told)
 
 
 def _lights(verdict: Checked | None, slope: Array, doubt: Array) -> tuple[str, ...]:

@@ -20,10 +20,9 @@ from nivel.analysis.plan.compilation import build
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.memory import MachineMemory, UnlikeError, arrays_of
 from nivel.analysis.preparation.parameters import Sample, Unfit, UnfitError, numbers_of
-from nivel.analysis.preparation.preparation import Prepared
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.progress.pacing import interruptible
-from nivel.analysis.run.dynamics import GOES_ON, Loop, LoopOnNumbers, start_loop
+from nivel.analysis.run.dynamics import GOES_ON, Loop, LoopOnNumbers, on_numbers
 from nivel.errors import Fault, ModelError, NivelError, SolveError, refuse
 from nivel.integrate.loop.run import BUDGET, EVENTS, FRAMES, OPEN_LIMIT, TIME
 from nivel.integrate.loop.sink import Header
@@ -37,19 +36,22 @@ from nivel.results.result import Result
 from nivel.system.laws.laws import dual_address
 
 
+def whole_of(used: Record) -> Record:
+    """A machine's record on dual numbers, without slopes yet."""
+    twin = whole_twin(used)
+    # what the twin by which Newton's matrix is found shares: elements that hold sliders, whether contacts keep their side
+    twin = twin._replace(
+        tree=twin.tree._replace(element=used.tree.element),
+        watched=twin.watched._replace(followed=used.watched.followed),
+    )
+    return on_numbers(used, "whole", twin, [dual_address(int(each)) if each else 0 for each in used.functions.address])
+
+
 class WholeLoop(LoopOnNumbers):
-    """The loop of a run on dual numbers, without slopes yet."""
+    """A loop on dual numbers, without slopes yet."""
 
     def __init__(self, loop: Loop) -> None:
-        machine: Record = loop.machine.record
-        twin = whole_twin(machine)
-        # what the twin by which Newton's matrix is found shares: elements that hold sliders, whether contacts keep their side
-        twin = twin._replace(
-            tree=twin.tree._replace(element=machine.tree.element),
-            watched=twin.watched._replace(followed=machine.watched.followed),
-        )
-        laws = [dual_address(int(each)) if each else 0 for each in machine.functions.address]
-        super().__init__(loop, "whole", twin, whole_twin(loop.history.record), laws)
+        super().__init__(loop, "whole", whole_of(loop.machine.record), whole_twin(loop.history.record))
 
 
 # parameters of the machines beside are away from their own values by these shares of their scales, and twice as far: wide, narrow
@@ -59,17 +61,18 @@ WIDE, NARROW = 1e-3, 1e-5
 SMOOTH, ROUND_OFF = 1e-2, 1e-6
 TURNS = ((WIDE, ((-1.0, 1.0), (-2.0, 2.0))), (NARROW, ((-1.0, 1.0),)))
 
-# slopes of all arrays of both records of a loop, that of the machine and that of the run, in their order
+# slopes of all arrays of records, as those of a loop, in their order
 Seeds = list[Array]
+Beside = Callable[[Parameter, float], MachineMemory]
 
 
-def seeds_of(loop: Loop, parameters: Sequence[Parameter], beside: Callable[[Parameter, float], Loop]) -> list[Seeds]:
-    """Slopes of the numbers of both records along each parameter, for a change by its scale.
+def seeds_of(memory: MachineMemory, parameters: Sequence[Parameter], beside: Beside) -> list[Seeds]:
+    """Slopes of the numbers of records along each parameter, for a change by its scale.
 
-    beside(parameter, value) : the loop of the machine with another value, built in the same way. Raises ModelError with every parameter
+    beside(parameter, value) : those of the machine with another value, built in the same way. Raises ModelError with every parameter
     with which the machine changes otherwise than in numbers.
     """
-    memory, faults, out = _memory(loop), list[Fault](), list[Seeds]()
+    faults, out = list[Fault](), list[Seeds]()
     for each in parameters:
         values = [
             [[each.value + side * aside * each.scale for side in turn] for turn in turns] for aside, turns in TURNS
@@ -80,7 +83,7 @@ def seeds_of(loop: Loop, parameters: Sequence[Parameter], beside: Callable[[Para
                 memory,
                 x,
                 [values],
-                lambda _, value, each=each: _memory(beside(each, value)),
+                lambda _, value, each=each: beside(each, value),
                 partial(_is_smooth, memory),
             )
         except UnfitError as error:
@@ -93,16 +96,17 @@ def seeds_of(loop: Loop, parameters: Sequence[Parameter], beside: Callable[[Para
     return out
 
 
-def seed(whole: WholeLoop, seeds: Sequence[Seeds]) -> None:
-    """Give the numbers of both records their slopes, a lane for each of LANES seeds at most."""
-    twins = [*arrays_of(whole.machine), *arrays_of(whole.run)]
+def seed(seeds: Sequence[Seeds], *records: Any) -> None:
+    """Give the numbers of records their slopes, a lane for each of LANES seeds at most."""
+    twins = [array for record in records for array in arrays_of(record)]
     for lane, slopes in enumerate(seeds):
         for dual, slope in zip(twins, slopes, strict=True):
             if dual.dtype == DUAL:
                 dual["slopes"][..., lane] = slope
 
 
-def _memory(loop: Loop) -> MachineMemory:
+def memory_of(loop: Loop) -> MachineMemory:
+    """The numbers of both records of a loop."""
     return MachineMemory(loop.machine.record, loop.history.record)
 
 
@@ -216,36 +220,37 @@ def _root_mean_square(columns: Array) -> Array:
 
 
 def find_slopes(
-    prepared: Prepared,
+    start: Callable[[RunSettings], Loop],
     settings: RunSettings,
     header: Header,
     parameters: Sequence[Parameter],
-    beside: Callable[[Parameter, float], Loop],
+    beside: Beside,
     listener: Listener,
+    events: Sequence[str] = (),
     finer: RunSettings | None = None,
 ) -> tuple[Slopes, Slopes | None]:
-    """The run on dual numbers, and the same with finer steps where that can be done. beside : see `nivel.analysis.gradients.seeds`.
+    """A loop on dual numbers, and the same with finer steps where that can be done. start : the loop by its settings. beside : see
+    `seeds_of`. events : their names.
 
     Raises ModelError where a parameter has no gradient, SolveError where the run fails.
     """
-    build(start_loop(prepared, settings, at_switches=True).entries_on("whole"), listener)
+    build(start(settings).entries_on("whole"), listener)
     passes: list[Lanes] = []
     finer_passes: list[Lanes] = []
     for first in range(0, len(parameters), LANES):
-        loop = start_loop(prepared, settings, at_switches=True)
-        seeds = seeds_of(loop, parameters[first : first + LANES], beside)
+        loop = start(settings)
+        seeds = seeds_of(memory_of(loop), parameters[first : first + LANES], beside)
         passes.append(_run_seeded(loop, seeds))
         if finer is not None:
             with suppress(SolveError):
-                finer_passes.append(_run_seeded(start_loop(prepared, finer, at_switches=True), seeds))
-    events = prepared.motion.system.events
+                finer_passes.append(_run_seeded(start(finer), seeds))
     slopes = Slopes(header, parameters, passes, events)
     return slopes, Slopes(header, parameters, finer_passes, events) if len(finer_passes) == len(passes) else None
 
 
 def _run_seeded(loop: Loop, seeds: Sequence[Seeds]) -> Lanes:
     whole = WholeLoop(loop)
-    seed(whole, seeds)
+    seed(seeds, whole.machine, whole.run)
     return run_whole(whole)
 
 

@@ -126,18 +126,25 @@ def rubs(machine: MachineRecord) -> bool:
     return any(isinstance(force, Friction) or holds_by_capacity(force) for force in machine.forces)
 
 
+def drivers_replaced(machine: MachineRecord, actuation: Actuation) -> tuple[str, ...]:
+    """The drivers of the coordinates of the actuators, in their order; none where these are not all that are driven."""
+    driven = {driver.coordinate: driver.name for driver in machine.drivers if driver.name not in actuation.hold}
+    found = [driven[each.coordinate] for each in actuation.actuators if each.coordinate in driven]
+    return tuple(found) if len(found) == len(actuation.actuators) == len(driven) else ()
+
+
 def acting_drivers(machine: MachineRecord, actuation: Actuation, *, recorded: bool) -> tuple[str, ...]:
     """The drivers in whose place the actuators are, in their order. recorded : whether the motion is not that of the drivers.
 
     Raises ModelError, by the first friction, where the actuators are not in the place of the drivers.
     """
-    by_coordinate = {driver.coordinate: driver.name for driver in machine.drivers if driver.name not in actuation.hold}
-    found = [by_coordinate.get(each.coordinate) for each in actuation.actuators]
-    alike = None not in found and len(found) == len(by_coordinate)
-    if alike and not recorded and not np.isfinite(actuation.limits).any():
-        return tuple(str(name) for name in found)
-    what = "limits" if alike and not recorded else "a recorded motion" if recorded else "actuators elsewhere"
-    driven = ", ".join(str(name) for name in by_coordinate) or "nothing"
+    found = drivers_replaced(machine, actuation)
+    if found and not recorded and not np.isfinite(actuation.limits).any():
+        return found
+    what = "limits" if found and not recorded else "a recorded motion" if recorded else "actuators elsewhere"
+    driven = (
+        ", ".join(each.coordinate or "" for each in machine.drivers if each.name not in actuation.hold) or "nothing"
+    )
     name = next(force.name for force in machine.forces if isinstance(force, Friction) or holds_by_capacity(force))
     message = (
         f"friction is loaded by the reactions, which depend on the efforts that are sought: with {what} they are not found; let drivers or "

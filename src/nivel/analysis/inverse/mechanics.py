@@ -106,7 +106,7 @@ class Mechanics:
             )
             psi = np.zeros(own.n)
             psi[own.free[dependent]] = length * found[0]
-            y[: own.positions] += own.position_rates(psi)
+            y[: own.positions] += own.position_rates(own.y, psi)
         raise ModelError(f"the loops cannot be closed with {', '.join(self.names)} where they are asked for")
 
     def displaced(self, q: Array, change: Array) -> Array:

@@ -1,6 +1,6 @@
 """A machine with one joint coordinate driven evenly over the duration of an analysis."""
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from math import pi
 from typing import Any
@@ -12,14 +12,17 @@ from scipy.linalg import qr
 from nivel.analysis.assembly.assemble import assemble
 from nivel.analysis.assembly.equations import equations
 from nivel.analysis.assembly.redundancy import scaled_jacobian
+from nivel.analysis.plan.compilation import assembly_entries, build
+from nivel.analysis.plan.plan import Methods, neutral
 from nivel.analysis.preparation.preparation import Prepared
+from nivel.analysis.progress.log import Listener
 from nivel.elements.joints.drivers import Driver
 from nivel.elements.joints.joint import Joint
-from nivel.errors import Fault, ModelError, SolveError
+from nivel.errors import Fault, ModelError, SolveError, refuse
 from nivel.judge.after.report import assess
 from nivel.judge.after.subject import Reach
 from nivel.kernels.output.observe import observe
-from nivel.lazy import Struct, replace
+from nivel.lazy import Struct, nivel, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.analyses import KinematicsSettings
 from nivel.results.analyses.mechanism import ConfigurationCurve, Range
@@ -27,6 +30,17 @@ from nivel.results.motion import rotation_matrices
 from nivel.results.result import Result
 from nivel.system.beam_nodes import with_nodes
 from nivel.system.system import Array, System
+
+
+def planned(
+    record: MachineRecord, given: Mapping[str, Any], listener: Listener | None = None
+) -> tuple[MachineRecord, Methods, KinematicsSettings]:
+    """The machine driven by settings of kinematics, its methods, and the settings. Raises ModelError."""
+    asked = nivel.machine.settings.analyses.kinematics_settings(record, given)
+    refuse(nivel.judge.before.refusals.faults_of(record, nivel.judge.before.analyses.OF_KINEMATICS))
+    build(assembly_entries(record), listener)
+    machine, asked = driven(record, asked)
+    return machine, neutral(machine, asked.coordinates)[1], asked
 
 
 def driven(machine: MachineRecord, settings: KinematicsSettings) -> tuple[MachineRecord, KinematicsSettings]:

@@ -17,7 +17,7 @@ from nivel.analysis.preparation.attributes import run_attributes
 from nivel.analysis.preparation.preparation import Prepared, sharing
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.progress.pacing import terminable
-from nivel.analysis.run.dynamics import GOES_ON, RunOutcome, keep_last, march_in_chunks
+from nivel.analysis.run.dynamics import GOES_ON, Loop, RunOutcome, keep_last, march_in_chunks
 from nivel.analysis.run.history import start_history
 from nivel.analysis.run.prepared_state import prepare
 from nivel.analysis.run.probes import GOLDEN, Probes
@@ -181,28 +181,23 @@ def resolved(
         count = FINER * (count - 1) + 1
 
 
+def position_loop(prepared: Prepared, settings: RunSettings) -> Loop:
+    """The compiled loop over the positions, at the start."""
+    control, kernels = prepared.motion.system.record.control, prepared.motion.kernels
+    control.stabilise[:] = STABILISATIONS["direct"].coefficients(settings.step, None, None)
+    correct, history = import_module(prepared.path.correction).correct, start_history(prepared, settings, FACTS)
+    return Loop(kernels.evaluate, correct, None, prepared.motion.handle, Handle(history), follow_positions)
+
+
 def follow(
     prepared: Prepared, settings: RunSettings, sink: Sink, listener: Listener, probes: Probes | None = None
 ) -> tuple[RunOutcome, Run]:
     """Give every position to the sink (already begun). Returns how it ended, and the history."""
-    system = prepared.motion.system
-    system.record.control.stabilise[:] = STABILISATIONS["direct"].coefficients(settings.step, None, None)
-    run = start_history(prepared, settings, FACTS)
-    kernels, history = prepared.motion.kernels, Handle(run)
-    correct = import_module(prepared.path.correction).correct
-    evaluate, correct, machine = kernels.evaluate.address, correct.address, prepared.motion.handle
-    finished, sinks = RunOutcome("done"), sharing(prepared, [sink])
+    system, loop = prepared.motion.system, position_loop(prepared, settings)
+    run, finished, sinks = loop.history.record, RunOutcome("done"), sharing(prepared, [sink])
     sinks = sinks if probes is None else (probes, *sinks)
     begin = time.perf_counter()
-    status, loop_seconds = march_in_chunks(
-        lambda: follow_positions(evaluate, correct, machine.address, history.address),
-        system,
-        run,
-        sinks,
-        finished,
-        listener.progress,
-        None,
-    )
+    status, loop_seconds = march_in_chunks(loop.advance, system, run, sinks, finished, listener.progress, None)
     if status not in (*GOES_ON, DONE):
         finished.outcome = "failed"
         finished.failure = _failure(prepared, settings, run, status)

@@ -120,10 +120,8 @@ class Computation(Struct):
             raise ModelError(Fault.at("time_limit", "runs with exact slopes have no time limit: leave one out"))
         if self.analysis == "run" and self.settings:
             raise ModelError(Fault.at("analysis_settings", "settings of runs are given by their names, as duration=2"))
-        if self.analysis != "run":
-            for name, given in (("exact_slopes", self.exact), ("time_limit", self.time_limit)):
-                if given is not None:
-                    raise ModelError(Fault.at(name, f"belongs to runs; `{self.analysis}` has none"))
+        if self.analysis != "run" and self.time_limit is not None:
+            raise ModelError(Fault.at("time_limit", f"belongs to runs; `{self.analysis}` has none"))
 
 
 class Evaluated(Struct):

@@ -13,13 +13,14 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from nivel.analysis.optimise.evaluations import Box, Computation, Evaluations, nothing_found, table_of
+from nivel.analysis.optimise.evaluations import Box, Computation, Evaluations, Exact, nothing_found, table_of
 from nivel.analysis.progress.log import Listener
 from nivel.analysis.sweep.outputs import Found, at_times, units_of
 from nivel.errors import Fault, ModelError, refuse
 from nivel.lazy import Struct, replace, scipy
 from nivel.machine.core.vectors import Array
 from nivel.machine.study.any_quantity import another_measure
+from nivel.machine.study.parameter import SCALAR
 from nivel.model import Model
 from nivel.results.result import Result
 
@@ -76,11 +77,13 @@ def identify(
     most: int = 100,
     tolerance: float = 1e-10,
     with_slopes: Callable[[Mapping[str, float]], Result] | None = None,
+    exact_of: Callable[[Sequence[str]], Exact] | None = None,
     computation: Computation | None = None,
     listener: Listener | None = None,
 ) -> Identified:
-    """The parameters with the least squares. with_slopes : the run of a variant with the slopes of its results; None: differences. most :
-    iterations of each start. computation : of each variant, runs by default; without `exact`, which follows from `with_slopes`.
+    """The parameters with the least squares. with_slopes : the run of a variant with the slopes of its results; exact_of : outputs of
+    another analysis with theirs, by their words; None of both: differences. most : iterations of each start. computation : of each
+    variant, runs by default; without `exact`, which follows from the slopes.
 
     Raises ModelError where no start has results, and SolveError where that is because runs fail; its `result` is the table of all variants.
     """
@@ -90,6 +93,8 @@ def identify(
     computation = computation or Computation()
     if with_slopes is not None:
         computation = replace(computation, exact=residuals.read_exact)
+    elif exact_of is not None:
+        computation = replace(computation, exact=residuals.by_words(exact_of))
     evaluations = Evaluations(machine, box, residuals.read, residuals.count, computation)
     fit = _Fit(evaluations, residuals.count)
     ends = []
@@ -169,6 +174,22 @@ class _Residuals:
             for path in self._box.paths
         ]
         return self.read(result), np.array(columns).T
+
+    def by_words(self, exact_of: Callable[[Sequence[str]], Exact]) -> Exact:
+        """What finds residuals and slopes of an analysis, of which each measurement is an output in words."""
+        words = [
+            each.name if SCALAR.fullmatch(each.name) else f"{each.name} at {float(t)!r} s"
+            for each in self._signals
+            for t in each.times
+        ]
+        exact, measured = exact_of(words), np.concatenate([each.values for each in self._signals])
+        unit = np.repeat(self._units, [len(each.values) for each in self._signals])
+
+        def found(values: Mapping[str, float]) -> tuple[Array, Array]:
+            outputs, slopes = exact(values)
+            return (outputs - measured) / unit, slopes / unit[:, None]
+
+        return found
 
     def by_signal(self, r: Array) -> dict[str, Array]:
         """Residuals in SI units by signal."""

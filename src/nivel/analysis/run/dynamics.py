@@ -92,50 +92,59 @@ class RunOutcome:
 
 
 class Loop(NamedTuple):
-    """What the compiled loop works on: entries of the equations, of what puts states back and of the step, the machine's record, that of
-    the run."""
+    """What a compiled loop works on: entries of the equations, of what puts states back and of the step, where there is one, the machine's
+    record, that of the run. driver : the loop itself."""
 
     evaluate: Entry
     correct: Entry
-    step: Entry
+    step: Entry | None
     machine: Handle
     history: Handle
+    driver: Entry = advance
+
+    @property
+    def codes(self) -> list[Entry]:
+        """What the loop is called with before the records."""
+        return [each for each in (self.evaluate, self.correct, self.step) if each is not None]
 
     @property
     def addresses(self) -> tuple[int, ...]:
-        """What `nivel.integrate.loop.loop.advance` is called with."""
-        codes = self.evaluate.address, self.correct.address, self.step.address
-        return *codes, int(self.machine.address), int(self.history.address)
+        """What the loop is called with."""
+        return *(each.address for each in self.codes), int(self.machine.address), int(self.history.address)
 
     def advance(self) -> int:
         """Go on for the budget of steps in the history's counter. Returns a status."""
-        return advance(*self.addresses)
+        return self.driver(*self.addresses)
 
     def entries_on(self, numbers: str) -> list[Entry]:
         """The machine code that it needs on other numbers, `whole` or `packed`, but for laws and expressions."""
         record = self.machine.record
         used = dict.fromkeys((*record.hooks.address, *record.elements.address))
         families = [FAMILIES[int(address)] for address in used if address]
-        return [getattr(each, numbers) for each in (self.evaluate, self.correct, self.step, advance, *families)]
+        return [getattr(each, numbers) for each in (*self.codes, self.driver, *families)]
+
+
+def on_numbers(used: Any, numbers: str, machine: Any, laws: Sequence[int]) -> Any:
+    """`machine`, which is the record `used` on other numbers, `whole` or `packed`, with the code for these. laws : of its functions."""
+
+    def families(addresses: NDArray[np.uint64]) -> NDArray[np.uint64]:
+        found = [getattr(FAMILIES[int(each)], numbers).address if each else 0 for each in addresses]
+        return np.array(found, dtype=np.uint64)
+
+    return machine._replace(
+        hooks=machine.hooks._replace(address=families(used.hooks.address)),
+        elements=machine.elements._replace(address=families(used.elements.address)),
+        functions=machine.functions._replace(address=np.array(laws, dtype=np.uint64)),
+    )
 
 
 class LoopOnNumbers:
-    """A loop on other numbers, `whole` or `packed`. machine, run : its records on these. laws : addresses of its functions."""
+    """A loop on other numbers, `whole` or `packed`. machine, run : its records on these."""
 
-    def __init__(self, loop: Loop, numbers: str, machine: Any, run: Any, laws: Sequence[int]) -> None:
-        def families(addresses: NDArray[np.uint64]) -> NDArray[np.uint64]:
-            found = [getattr(FAMILIES[int(each)], numbers).address if each else 0 for each in addresses]
-            return np.array(found, dtype=np.uint64)
-
-        used = loop.machine.record
-        self.machine = machine._replace(
-            hooks=machine.hooks._replace(address=families(used.hooks.address)),
-            elements=machine.elements._replace(address=families(used.elements.address)),
-            functions=machine.functions._replace(address=np.array(laws, dtype=np.uint64)),
-        )
-        self.run, self._advance = run, getattr(advance, numbers)
+    def __init__(self, loop: Loop, numbers: str, machine: Any, run: Any) -> None:
+        self.machine, self.run, self._advance = machine, run, getattr(loop.driver, numbers)
         self.handle, self._history = Handle(self.machine), Handle(self.run)
-        codes = (getattr(each, numbers).address for each in (loop.evaluate, loop.correct, loop.step))
+        codes = (getattr(each, numbers).address for each in loop.codes)
         self.addresses = *codes, int(self.handle.address), int(self._history.address)
 
     def advance(self) -> int:

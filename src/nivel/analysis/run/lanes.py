@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.preparation.memory import Role, arrays_of, leaves
 from nivel.analysis.preparation.preparation import Prepared
-from nivel.analysis.run.dynamics import Loop, LoopOnNumbers, occurrences
+from nivel.analysis.run.dynamics import Loop, LoopOnNumbers, occurrences, on_numbers
 from nivel.analysis.run.prepared_state import BoundEntry
 from nivel.analysis.run.stepping import Simulation
 from nivel.integrate.loop import run as of_run
@@ -97,8 +97,9 @@ class LaneLoop(LoopOnNumbers):
     def __init__(self, loop: Loop, pieces: Sequence[Piece]) -> None:
         self.memory = LaneMemory(pieces)
         machine, run = (changed(each.record, self.memory.on_lanes) for each in (loop.machine, loop.history))
-        laws = [FAMILIES[int(each)].packed.address if each else 0 for each in loop.machine.record.functions.address]
-        super().__init__(loop, "packed", machine, run, laws)
+        used = loop.machine.record
+        laws = [FAMILIES[int(each)].packed.address if each else 0 for each in used.functions.address]
+        super().__init__(loop, "packed", on_numbers(used, "packed", machine, laws), run)
 
     def go(self) -> tuple[int, int]:
         """Go on for the budget of steps in the counter of the run. Returns a status, and a bit for each lane that has not left."""

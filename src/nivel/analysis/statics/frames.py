@@ -1,16 +1,19 @@
 """Frames of a statics result: those of a run, without what is always zero at rest, and with what only statics knows."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from nivel.analysis.preparation.preparation import SharedLoads
 from nivel.analysis.statics.equations import Rest, StaticEquations
 from nivel.analysis.statics.linear import Vibrations
+from nivel.kernels.core.block import Handle
 from nivel.kernels.output.observe import observe
 from nivel.kernels.residual.tangent_entries import evaluate_residual
 from nivel.lazy import Struct
 from nivel.motion.catalogue import IMPLICIT_ACCELERATIONS
+from nivel.native.duals import LANES, duals
 from nivel.system.layout import Entry, FrameLayout, Variable, laid_out
 from nivel.system.system import Array
 
@@ -111,22 +114,37 @@ class FrameWriter:
         accelerations are found by the residual follow from what this transmits, multipliers included.
         """
         equations = self.equations
-        record = equations.record
-        by_residual = equations.motion.kernels.__name__ == IMPLICIT_ACCELERATIONS
-        equations.evaluate(state, state.lam if by_residual else np.zeros(equations.rows))
+        record, address = equations.record, equations.motion.handle.address
+        equations.evaluate(state, state.lam if self.by_residual else np.zeros(equations.rows))
         if np.any(velocity):
             equations.residual.y[equations.positions : equations.positions + equations.n] = velocity
-            address = equations.motion.handle.address
             evaluate_residual(address, state.t)
-        record.constraints.lam[:] = 0.0
-        record.constraints.lam[equations.residual.row] = state.lam
-        record.friction.force[:] = 0.0
-        for still in (record.bodies.Rddot, record.bodies.alpha_b, record.tree.delta, record.tree.alpha0):
-            still[:] = 0.0
-        record.tree.Rddot0[:] = 0.0
+        make_still(record, state.lam)
         frame = np.zeros(self._full.width)
-        observe(equations.motion.handle.address, state.t, equations.residual.y, frame)
+        observe(address, state.t, equations.residual.y, frame)
         return frame
+
+    @property
+    def by_residual(self) -> bool:
+        """Whether accelerations are found by the residual."""
+        return self.equations.motion.kernels.__name__ == IMPLICIT_ACCELERATIONS
+
+    def observed_on_duals(self, record: Any, t: Any) -> Array:
+        """(width, 1 + LANES) the numbers of a frame of the machine's record on dual numbers, which has the residual at a state, with
+        its multipliers, time t a dual number; not a number what stands behind those of a run, and that along no parameter."""
+        own, handle = record.residual, Handle(record)
+        lam = own.lam.copy()
+        if not self.by_residual:
+            own.lam[:] = 0.0
+        evaluate_residual.whole(handle.address, t)
+        make_still(record, lam)
+        full = duals(np.zeros(self._full.width))
+        observe.whole(handle.address, t, own.y, full)
+        own.lam[:] = lam
+        found = full.view(np.float64).reshape(-1, 1 + LANES)[self._columns]
+        out = np.full((self.layout.width, 1 + LANES), np.nan)
+        out[: 1 + len(found)] = np.concatenate([t.view(np.float64).reshape(1, -1), found])
+        return out
 
     def _vibrating(self, state: Rest, found: Vibrations | None) -> Array:
         bodies = len(self._full.coordinates["body"])
@@ -149,6 +167,16 @@ class FrameWriter:
             frequency = np.sqrt(found.squares) / (2.0 * np.pi)
         damped = found.rates.imag / (2.0 * np.pi), -found.rates.real
         return np.concatenate([found.squares, frequency, *damped, shifts.ravel(), turns.ravel(), bending.ravel()])
+
+
+def make_still(record: Any, lam: Any) -> None:
+    """What is observed next has these multipliers of the residual, and no accelerations."""
+    record.constraints.lam[:] = 0.0
+    record.constraints.lam[record.residual.row] = lam
+    record.friction.force[:] = 0.0
+    for still in (record.bodies.Rddot, record.bodies.alpha_b, record.tree.delta, record.tree.alpha0):
+        still[:] = 0.0
+    record.tree.Rddot0[:] = 0.0
 
 
 def _is_of_motion(name: str) -> bool:

@@ -48,6 +48,7 @@ from nivel.results.frames.summary import Occurrence, to_json
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
+from nivel.system.system import Array
 
 
 def statics_attributes(
@@ -68,7 +69,7 @@ NOT_JUDGED = -1
 @dataclass
 class Walk:
     """The equilibria of a machine from `start` on: where their frames go, and what is known of the path so far. ended : (message, advice)
-    of a failure."""
+    of a failure. rests : the equilibria, and the angles of joints that are followed in each."""
 
     equations: StaticEquations
     start: Rest
@@ -76,6 +77,7 @@ class Walk:
     writer: FrameWriter
     sink: Memory | Store
     points: list[Point] = field(default_factory=list)
+    rests: list[tuple[Rest, Array]] = field(default_factory=list)
     counts: list[int] = field(default_factory=list)
     critical: list[CriticalPoint] = field(default_factory=list)
     iterations: int = 0
@@ -150,6 +152,7 @@ class Walk:
                 if each.found is not None:
                     self._write(Point(each.found, each.along), min(counts))
         self._write(point, count)
+        self.rests.append((point.state, equations.record.coordinates.reference.copy()))
         # the first and the last are needed
         self.points[1:] = [point] if self.points else []
         self.points = self.points or [point]
@@ -219,6 +222,25 @@ def prepare_statics(
     return prepared, StaticEquations(motion, settings.duration or 1.0)
 
 
+def begun(
+    machine: MachineRecord,
+    settings: StaticsSettings,
+    sink: Memory | Store,
+    *,
+    chosen_duration: bool,
+    source: str = "",
+    shared: bool = False,
+) -> tuple[Walk, Prepared]:
+    """A walk along the equilibria, not gone yet, whose sink has begun. shared : redundant joints share their loads. See `statics`."""
+    prepared, equations = prepare_statics(machine, settings)
+    start = _start(equations, prepared)
+    if not chosen_duration and not _depends_on_time(equations, start, settings.duration):
+        settings = settings.replace(duration=0.0, arc_length=False)
+    writer = FrameWriter(equations, settings.modes, SharedLoads.of(prepared) if shared else None)
+    sink.begin(Header(writer.layout, statics_attributes(machine, source, prepared, settings)))
+    return Walk(equations, start, settings, writer, sink), prepared
+
+
 def statics(
     machine: MachineRecord,
     settings: StaticsSettings,
@@ -240,15 +262,10 @@ def statics(
     sink = Memory() if out is None else Store(out, force)
     begin = time.perf_counter()
     listener.say("preparing")
-    prepared, equations = prepare_statics(machine, settings)
-    start = _start(equations, prepared)
-    if not chosen_duration and not _depends_on_time(equations, start, settings.duration):
-        settings = settings.replace(duration=0.0, arc_length=False)
-    writer = FrameWriter(equations, settings.modes, SharedLoads.of(prepared))
-    sink.begin(Header(writer.layout, statics_attributes(machine, source, prepared, settings)))
+    walk, prepared = begun(machine, settings, sink, chosen_duration=chosen_duration, source=source, shared=True)
+    settings = walk.settings
     seconds = {"prepare_seconds": time.perf_counter() - begin, "compile_seconds": compile_seconds}
     begin = time.perf_counter()
-    walk = Walk(equations, start, settings, writer, sink)
     with terminable():
         walk.go(listener)
         if settings.buckling and walk.outcome == "done":
@@ -281,10 +298,7 @@ def _with_other_elements(
     own, its, other, why = walk.stiffness(), None, None, ""
     listener.say(f"verifying with {pair.words} elements of beams")
     try:
-        other_prepared, equations = prepare_statics(pair.machine, settings)
-        start = _start(equations, other_prepared)
-        other = Walk(equations, start, settings, FrameWriter(equations, settings.modes), Memory())
-        other.sink.begin(Header(other.writer.layout, {}))
+        other, _ = begun(pair.machine, settings, Memory(), chosen_duration=True)
         other.go(Listener())
         its = other.stiffness() if other.points else None
     except (ModelError, SolveError, linear.PivotError) as error:

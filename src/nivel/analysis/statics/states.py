@@ -34,13 +34,19 @@ GROWING = 1e-7
 STILL = 1e-12
 
 
-class _System(Struct):
-    """The equations at a state: matrix and right-hand side of scaled unknowns, and what a scaled unknown is in units."""
+class AtRest(Struct):
+    """The equations at a state: matrix and right-hand side of scaled unknowns, and what a scaled unknown is in units.
+
+    chosen, weight : of r, -ẋ and C which, and by what these are scaled. keeps : whether some states keep what they began with.
+    """
 
     matrix: csc_matrix
     right: Array
     unit: Array
     states: NDArray[np.intp]
+    chosen: NDArray[np.intp]
+    weight: Array
+    keeps: bool
 
 
 class Since(Struct):
@@ -70,7 +76,7 @@ class RestlessStateError(EquilibriumError):
 
 def find_moving_states(equations: StaticEquations, state: Rest) -> None:
     """Say in `equations.states_move` whether rates of states are equations at all. Raises StateError, RestlessStateError."""
-    equations.states_move = bool(len(_assembled(equations, state, Since.start(equations, state)).states))
+    equations.states_move = bool(len(assembled(equations, state, Since.start(equations, state)).states))
 
 
 def equilibrate_states(equations: StaticEquations, state: Rest, iteration: Iteration) -> Found:
@@ -80,7 +86,7 @@ def equilibrate_states(equations: StaticEquations, state: Rest, iteration: Itera
     f = len(equations.free)
     for number in range(1, MOST + 1):
         try:
-            system = _assembled(equations, state, since)
+            system = assembled(equations, state, since)
             x = factors(system.matrix).solve(system.right)
         except StateError:
             raise EquilibriumError("a force, or the state, is not a number", state, tuple(sizes)) from None
@@ -109,7 +115,7 @@ def settle_states(equations: StaticEquations, state: Rest, iteration: Iteration)
     since, sigma, sizes = Since.start(equations, state), 1.0, list[float]()
     f = len(equations.free)
     try:
-        system = _assembled(equations, state, since)
+        system = assembled(equations, state, since)
         for number in range(1, MOST + 1):
             own = f + len(system.states)
             added = np.where(np.arange(len(system.right)) < own, sigma, 0.0)
@@ -137,16 +143,16 @@ def settle_states(equations: StaticEquations, state: Rest, iteration: Iteration)
     raise EquilibriumError(f"{MOST} iterations are not enough", state, tuple(sizes))
 
 
-def _assembled_or_none(equations: StaticEquations, state: Rest, since: Since) -> _System | None:
+def _assembled_or_none(equations: StaticEquations, state: Rest, since: Since) -> AtRest | None:
     """The equations at a state that may have no forces."""
     try:
-        return _assembled(equations, state, since)
+        return assembled(equations, state, since)
     except StateError:
         return None
 
 
 def _nearer(
-    equations: StaticEquations, state: Rest, since: Since, system: _System, x: Array, share: float
+    equations: StaticEquations, state: Rest, since: Since, system: AtRest, x: Array, share: float
 ) -> tuple[Rest, Since, float]:
     """The state after the largest share of the change that does not make what is left over larger; the least one where none does."""
     left = float(np.linalg.norm(system.right))
@@ -160,7 +166,7 @@ def _nearer(
         share *= 0.5
 
 
-def _changed(equations: StaticEquations, state: Rest, system: _System, x: Array) -> Rest:
+def _changed(equations: StaticEquations, state: Rest, system: AtRest, x: Array) -> Rest:
     """The state after a change of the scaled unknowns."""
     f, count = len(equations.free), len(system.states)
     change = np.zeros(equations.n)
@@ -196,7 +202,7 @@ def kept_combinations(rates: Sparse) -> Array:
     return left[:, rank:]
 
 
-def _assembled(equations: StaticEquations, state: Rest, since: Since) -> _System:
+def assembled(equations: StaticEquations, state: Rest, since: Since) -> AtRest:
     """The equations at a state. Raises StateError, RestlessStateError."""
     n, count, rows = equations.n, equations.state_count, equations.rows
     r, C = equations.evaluate(state)
@@ -231,7 +237,7 @@ def _assembled(equations: StaticEquations, state: Rest, since: Since) -> _System
         )
         matrix = csc_matrix(matrix + _placed(kept @ laws, f, matrix.shape))
         right[own_rows] -= kept @ (laws @ change)
-    return _System(matrix, right, unit[chosen], states)
+    return AtRest(matrix, right, unit[chosen], states, chosen, (rescaled * weight)[chosen], bool(kept.shape[1]))
 
 
 def _placed(rows: Array, first: int, shape: tuple[int, int]) -> csc_matrix:
@@ -242,7 +248,7 @@ def _placed(rows: Array, first: int, shape: tuple[int, int]) -> csc_matrix:
 
 def restlessness(equations: StaticEquations, state: Rest) -> float:
     """What a state would change by within its own time, as a share of its size, at most: zero in equilibrium."""
-    system = _assembled(equations, state, Since.start(equations, state))
+    system = assembled(equations, state, Since.start(equations, state))
     f = len(equations.free)
     return float(np.max(np.abs(system.right[f : f + len(system.states)]), initial=0.0))
 

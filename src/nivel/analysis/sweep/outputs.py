@@ -64,7 +64,7 @@ def outputs_of(found: Found, outputs: Mapping[str, parameter.Output]) -> dict[st
     for name, output in outputs.items():
         try:
             with retold(lambda each, name=name: Fault.at(f"outputs.{name}.{each.path or 'of'}", each.message)):
-                numbers[name] = number = _number(found, output)
+                numbers[name] = number = number_of(found, output)
                 _check_limits(output, number.units)
         except OutputFailedError as error:
             raise OutputFailedError(f"output {name}: {error}") from None
@@ -77,7 +77,8 @@ def check_function(output: parameter.PythonOutput) -> None:
     _check_limits(output, output.units)
 
 
-def _number(found: Found, output: parameter.Output) -> Number:
+def number_of(found: Found, output: parameter.Output) -> Number:
+    """What an output is in a result. Raises ModelError, with the path of the key that is at fault, OutputFailedError."""
     match output:
         case parameter.PythonOutput():
             return Number(_called(output, found), output.units)
@@ -145,7 +146,7 @@ def said_number(said: Said) -> Callable[[Found], float]:
     if callable(said):
         return lambda found: float(said(found))
     output = parameter.said_output(said)
-    return lambda found: _number(found, output).value
+    return lambda found: number_of(found, output).value
 
 
 def event_of(said: Said) -> str:

@@ -19,7 +19,7 @@ from nivel.analysis.plan.plan import methods_of
 from nivel.analysis.plan.settings import complete
 from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.prepared_state import prepare
-from nivel.machine.core.marker import Marker
+from nivel.machine.core.element import Marker
 from nivel.system.laws.laws import law_address
 
 SPRINGS, STEPS, REPEATS = 100, 2000, 15

@@ -16,8 +16,8 @@ from nivel.machine.given import Shown
 from nivel.machine.settings.analyses import InverseSettings, KinematicsSettings, LineariseSettings, StaticsSettings
 from nivel.machine.settings.run import ENDLESS, SimulationSettings
 from nivel.machine.settings.sweep import COMMON, Axes, SweepSettings
-from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import Quantity
+from nivel.machine.units.unit import KINDS
 
 HEAD: Final = '''"""Settings of the analyses as keywords of Python, with the option of the command line and its help.
 

@@ -47,11 +47,10 @@ from nivel.machine.laws.symbols import POINT_QUANTITIES, SENSOR_QUANTITIES, TURN
 from nivel.machine.settings.run import Baumgarte
 from nivel.machine.signals.input import Gamepad, Input, Keys
 from nivel.machine.signals.sensor import COORDINATE_QUANTITIES, MARKER_QUANTITIES
-from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.functions import FUNCTIONS
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import CONSTANTS, LOOKUP, ExpressionError, Number
-from nivel.machine.units.unit import UNITS
+from nivel.machine.units.unit import KINDS, UNITS
 from nivel.system.elimination.topology import carries
 
 ROOT = Path(__file__).parent.parent

@@ -106,7 +106,7 @@ def _keys(record: Any, names: list[str]) -> str:
 
 def _key(name: str, field: Any) -> str:
     """A key with its unit, or with its few words."""
-    from nivel.machine.laws.signature import words_of
+    from nivel.machine.core.record import words_of
 
     key = escape(field.alias or name)
     words = words_of(field)

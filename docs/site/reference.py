@@ -109,7 +109,7 @@ def _parts(record: type) -> Iterator[type]:
 
 
 def _table(record: Any, section: str, level: int) -> list[str]:
-    from nivel.machine.laws.signature import words_of
+    from nivel.machine.core.record import words_of
 
     kind = kind_of(record)
     alone = bool(record.collection)  # an element is known by its type, a part of one by its name

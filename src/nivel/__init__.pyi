@@ -45,7 +45,7 @@ from nivel.errors import SolveError as SolveError
 from nivel.live.page import export_page as export_page
 from nivel.machine.bodies.body import Body as Body
 from nivel.machine.control.block import Block as Block
-from nivel.machine.core.marker import Marker as Marker
+from nivel.machine.core.element import Marker as Marker
 from nivel.machine.laws.time_function import Expression as Expression
 from nivel.machine.laws.time_function import PythonLaw as PythonLaw
 from nivel.machine.laws.time_function import Table as Table

@@ -82,7 +82,7 @@ from nivel.machine.control.part import PartFunction as PartFunction
 from nivel.machine.control.part import UnitFacts as UnitFacts
 from nivel.machine.control.part import UnitOutput as UnitOutput
 from nivel.machine.core.element import ForceElement as ForceElement
-from nivel.machine.core.marker import Marker as Marker
+from nivel.machine.core.element import Marker as Marker
 from nivel.machine.laws.time_function import TimeFunction as TimeFunction
 from nivel.machine.machine_record import MachineRecord as MachineRecord
 from nivel.machine.signals.input import Event as Event

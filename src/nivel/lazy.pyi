@@ -187,7 +187,7 @@ import nivel.looks.circuit.drawing
 import nivel.looks.circuit.power_flow
 import nivel.machine
 import nivel.machine.core
-import nivel.machine.core.marker
+import nivel.machine.core.element
 import nivel.machine.core.orientation
 import nivel.machine.core.record
 import nivel.machine.settings

@@ -32,7 +32,7 @@ from nivel.known import (
 )
 from nivel.lazy import Struct, nivel, replace
 from nivel.machine.bodies.body import Body
-from nivel.machine.core.marker import Marker
+from nivel.machine.core.element import Marker
 from nivel.machine.core.named import Named, NamedValues
 from nivel.machine.core.record import Record, entry
 from nivel.machine.machine_record import MachineRecord

@@ -7,9 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from nivel.flexible.foreign.calculix import blocks_of
 from nivel.flexible.foreign.read_mesh import read_mesh
-from nivel.flexible.foreign.stress import elastic_blocks
+from nivel.flexible.foreign.stress import blocks_of, elastic_blocks
 from nivel.flexible.model.model_file import parse_model
 from nivel.flexible.model.solid_elements import SolidElements
 from nivel.flexible.reduce import reduce_model

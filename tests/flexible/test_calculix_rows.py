@@ -8,9 +8,9 @@ import pytest
 import scipy.sparse as sp
 
 from nivel.errors import ModelError
-from nivel.flexible.foreign.calculix import internal_nodes, refuse_expanded, rigid_rows
 from nivel.flexible.foreign.matrix import FormatError
 from nivel.flexible.foreign.read_mesh import read_mesh
+from nivel.flexible.foreign.stress import internal_nodes, refuse_expanded, rigid_rows
 from nivel.flexible.model.model import MatrixMass, from_matrix
 from nivel.flexible.reduce import reduce
 

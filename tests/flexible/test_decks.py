@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 
 from calculix_decks import CASES, ELASTIC, ORIENTATION, STRESSES, block, deck, displacement
-from nivel.flexible.foreign.calculix import blocks_of
 from nivel.flexible.foreign.deck import CARDS, NO_STRESS, REFUSED, USED, WITHOUT_INFLUENCE
 from nivel.flexible.foreign.matrix import FormatError
 from nivel.flexible.foreign.read_mesh import read_mesh
 from nivel.flexible.foreign.shells import expansion
-from nivel.flexible.foreign.stress import UnknownStressError, elastic_blocks
+from nivel.flexible.foreign.stress import UnknownStressError, blocks_of, elastic_blocks
 from nivel.flexible.model.solid_elements import SolidElements
 from test_shells import E
 from test_shells import deck as shell_deck

@@ -11,11 +11,11 @@ import scipy.sparse as sp
 from lanes import tail
 from nivel.elements.beams.sections import Material
 from nivel.errors import ModelError
-from nivel.flexible.foreign.calculix import blocks_of
 from nivel.flexible.foreign.matrix import FormatError
 from nivel.flexible.foreign.mesh import SHELLS
 from nivel.flexible.foreign.read_mesh import read_mesh
 from nivel.flexible.foreign.shells import expansion
+from nivel.flexible.foreign.stress import blocks_of
 from nivel.flexible.model.solid_elements import elasticity
 from nivel.flexible.reduce import reduce
 

@@ -11,8 +11,8 @@ from models import reduced
 from nivel.elements.beams.sections import Material
 from nivel.errors import ModelError
 from nivel.flexible.body.recovery import stress
-from nivel.flexible.foreign.calculix import blocks_of, first_inverted
 from nivel.flexible.foreign.mesh import SOLIDS, Mesh
+from nivel.flexible.foreign.stress import blocks_of, first_inverted
 from nivel.flexible.model.solid_elements import SolidElements, elasticity, surface
 
 STEEL = Material(youngs_modulus=210e9, poisson_ratio=0.3, density=7850)

@@ -78,7 +78,7 @@ BY_ADDRESS = [f"joints.{name}" for name in ("call_motion", "carry_child", "joint
 BY_ADDRESS += [f"fmu.{name}" for name in ("failed", "go_on", "initialise", "take_step", "transfer")]
 BY_ADDRESS += [f"c_function.{name}" for name in ("call", "give_environment_back", "keep_environment")]
 # what only slopes of whole runs need, which are compiled: tests/analysis/test_gradients.py
-OF_SLOPES = [f"{name}.settle_slopes" for name in ("residual_newton", "friction", "balance", "variable_corrector")]
+OF_SLOPES = [f"{name}.settle_slopes" for name in ("residual_newton", "friction", "balance", "variable_order")]
 OF_SLOPES += ["lanes.steepest", "direct.are_steep", "independent.is_steep", "crossing.root", "shifted_along.add_slopes"]
 OF_SLOPES += ["samples.fit_part"]
 OF_SLOPES += ["residual_newton.steepness_of_change", "residual_newton.end_correction"]

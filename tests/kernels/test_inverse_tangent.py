@@ -3,12 +3,7 @@
 import numpy as np
 import pytest
 
-from nivel.kernels.algebra.inverse_tangent import (
-    NEAR,
-    inverse_tangent_by,
-    inverse_tangent_factor,
-    slope_of_factor,
-)
+from nivel.kernels.algebra.inverse_tangent import NEAR, inverse_tangent_by, inverse_tangent_factor, slope_of_factor
 
 ANGLES = [0.0, 1e-6, 1e-3, 0.1, 0.7, np.sqrt(NEAR) * (1 - 1e-12), np.sqrt(NEAR), 2.0, 3.1]
 

@@ -3,8 +3,8 @@
 import pytest
 
 from nivel.machine.parameters import resolve
-from nivel.machine.units.dimension import dimension
 from nivel.machine.units.tree import Number
+from nivel.machine.units.unit import dimension
 
 
 def test_order_does_not_matter():

@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 
 from nivel.machine.laws.time_function import read_time_function
 from nivel.machine.laws.varying_value import Expression
-from nivel.machine.units.dimension import BASES, KINDS, NONE, dimension, known, power, product
 from nivel.machine.units.plain_factors import completed, unit_text
 from nivel.machine.units.quantity import LackingUnitError, read_quantity
 from nivel.machine.units.tree import ExpressionError, Number
+from nivel.machine.units.unit import BASES, KINDS, NONE, dimension, known, power, product
 
 LENGTH, SPEED, TIME = dimension(m=1), dimension(m=1, s=-1), dimension(s=1)
 FORCE = KINDS["force"][2]

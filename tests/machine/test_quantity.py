@@ -7,10 +7,9 @@ import sys
 import numpy as np
 import pytest
 
-from nivel.machine.units.dimension import KINDS, dimension, symbol
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import ExpressionError, Number
-from nivel.machine.units.unit import UNITS, _ask_pint, unit
+from nivel.machine.units.unit import KINDS, UNITS, _ask_pint, dimension, symbol, unit
 
 
 @pytest.mark.parametrize("name", [name for name in UNITS if name not in ("°", "rev", "Nm", "kNm")])

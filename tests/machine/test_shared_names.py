@@ -13,12 +13,11 @@ from nivel.files import parse_machine
 from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.parameters import resolve
 from nivel.machine.units.arithmetic import bind, evaluate
-from nivel.machine.units.dimension import dimension
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.measure import measure, name_notes
 from nivel.machine.units.quantity import read_quantity
 from nivel.machine.units.tree import ExpressionError, Number
-from nivel.machine.units.unit import UNITS
+from nivel.machine.units.unit import UNITS, dimension
 
 NAMES = {
     "m": Number(3.0, dimension(kg=1)),

@@ -9,7 +9,7 @@ from nivel.analysis.plan.compilation import all_entries
 from nivel.native import sources
 from nivel.native.entry import Entry
 from nivel.native.function import Function
-from nivel.native.outline import outline_of
+from nivel.native.sources import outline_of
 
 FILES = {
     "pack/__init__.py": "",

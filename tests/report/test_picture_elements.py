@@ -6,8 +6,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from nivel.elements.joints import JOINTS
-from nivel.elements.joints.kind import unknown
+from nivel.elements.joints import JOINTS, UNKNOWN
 from nivel.looks.poses import sliding_axes, turning_axes
 from nivel.report.force_drawing import planes
 from nivel.report.picture import machine_picture
@@ -59,7 +58,7 @@ def classes(svg):
 
 
 def test_every_kind_of_joint_has_a_sign():
-    assert all(kind.symbol is not unknown for kind in JOINTS.values())
+    assert all(kind.symbol is not UNKNOWN.symbol for kind in JOINTS.values())
     assert {end for ends in LINKS.values() for end in ends} <= set(JOINTS)
 
 

@@ -277,7 +277,7 @@ def measured(rig: Machine, wheels: list[Wheel], case: str, size: float, listener
         force = [way(ahead), way(aside), 0.0]
         moment = [way(aside * wheel.radius), way(-ahead * wheel.radius), way(turning)]
         added += [
-            nivel.machine.core.marker.Marker(name=name, body=wheel.body, position=tuple(wheel.point)),
+            nivel.machine.core.element.Marker(name=name, body=wheel.body, position=tuple(wheel.point)),
             nivel.elements.joints.drivers.Driver(name=name, marker=name, along="z", value=way(height), from_start=True),
             nivel.elements.forces.loads.PointForce(name=f"{name}_force", marker=name, vector=force),
             nivel.elements.forces.loads.Torque(name=f"{name}_moment", body=wheel.body, vector=moment),

@@ -9,11 +9,10 @@ from typing import NamedTuple
 
 from nivel.kernels.bodies.coordinate import LAST_ANGLE
 from nivel.known import ForceElement, SystemBuilder
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 
 
-@dataclass(frozen=True)
-class StateFact:
+class StateFact(Struct):
     """One first-order state x of an element.
 
     name : signal where it has a dot. variable : of the result, default `state.NAME`; units, long_name : of that, SI. start : at t = 0.

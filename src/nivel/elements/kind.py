@@ -14,15 +14,14 @@ from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdap
 from pydantic_core import CoreSchema, PydanticKnownError, core_schema
 
 from nivel.known import Family, MachineRecord, SystemBuilder
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 
 
 def _nothing(builder: SystemBuilder, element: Any) -> None:
     """What a kind adds whose record says all."""
 
 
-@dataclass(frozen=True)
-class Kind:
+class Kind(Struct):
     """record : its keys in machine files. add(builder, record) : adds its rows to the tables of a machine. families : kernels that it may
     need. families_of(machine, record) : those that an element needs, where they are not all."""
 

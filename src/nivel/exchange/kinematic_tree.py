@@ -19,7 +19,7 @@ from nivel.exchange.translation import Notes
 from nivel.files.joint_parts import rotors_of
 from nivel.lazy import Struct, dataclass, field
 from nivel.machine.bodies.body import Body
-from nivel.machine.core.marker import Marker
+from nivel.machine.core.element import Marker
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import GROUND
 from nivel.machine.laws.time_function import Expression

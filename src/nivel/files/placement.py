@@ -26,7 +26,7 @@ from nivel.elements.joints.joint import Joint
 from nivel.files.substitution import NotRepresentableError, rewritten, same, substituted
 from nivel.lazy import Struct, dataclass, field
 from nivel.machine.bodies.body import Body
-from nivel.machine.core.marker import Marker
+from nivel.machine.core.element import Marker
 from nivel.machine.core.orientation import (
     Orientation,
     euler_parameters_from_matrix,

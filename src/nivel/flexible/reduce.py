@@ -9,7 +9,7 @@ import numpy as np
 from nivel.errors import Fault, ModelError, refuse
 from nivel.flexible.body.body import Interface, LeftOut, ReducedBody, StressModes
 from nivel.flexible.body.mass_invariants import beside_kept, invariants, left_out
-from nivel.flexible.checks import checks
+from nivel.flexible.checks import findings as checks
 from nivel.flexible.checks.findings import Findings, findings_of, mesh_error
 from nivel.flexible.model.frame import frame_model
 from nivel.flexible.model.model import AXES, Array, FiniteElementModel, lumped
@@ -20,7 +20,7 @@ from nivel.flexible.reduction.factor import NoStiffnessError, Whole
 from nivel.flexible.reduction.free_body import FreeBody, Orthonormal, held_at, orthonormal
 from nivel.flexible.reduction.given_modes import given_modes
 from nivel.flexible.reduction.ties import Attachment, with_interfaces
-from nivel.lazy import dataclass, nivel, replace
+from nivel.lazy import Struct, nivel, replace
 
 Stage = Callable[[str, float], None]
 
@@ -44,8 +44,7 @@ def _silent(_text: str, _share: float) -> None:
     """Nobody listens."""
 
 
-@dataclass(frozen=True)
-class Reduction:
+class Reduction(Struct):
     """A reduced body, and what was found out while it was made."""
 
     body: ReducedBody

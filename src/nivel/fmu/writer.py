@@ -25,8 +25,7 @@ from nivel.c_library.parameters import Followed, Vary, follow
 from nivel.c_library.writer import PLATFORMS, Platform, known_platform, object_codes, this_platform
 from nivel.files.target import written
 from nivel.lazy import Struct
-from nivel.machine.units.dimension import BASES
-from nivel.machine.units.unit import UnknownUnitError, unit
+from nivel.machine.units.unit import BASES, UnknownUnitError, unit
 from nivel.native import shipped, store
 from nivel.native.workers import CompilationError
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Literal
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.methods import CHOSEN, EITHER
 from nivel.native.entry import Entry
 
@@ -19,8 +19,7 @@ Ends = Literal["anywhere", "corners", "jumps"]
 Machines = Literal["all", "modes", "circuits", "flexible circuits"]
 
 
-@dataclass(frozen=True)
-class IntegratorFacts:
+class IntegratorFacts(Struct):
     """An integrator of the word `name`, of which `step` is the compiled function. Who chooses its steps is said with the word, in
     `nivel.methods`.
 

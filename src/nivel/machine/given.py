@@ -15,15 +15,14 @@ import pydantic
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 
 Validated = TypeVar("Validated")
 Read_co = TypeVar("Read_co", covariant=True)
 Written_contra = TypeVar("Written_contra", contravariant=True)
 
 
-@dataclass(frozen=True)
-class Usual:
+class Usual(Struct):
     """What a quantity of real machines is between: `least` and `most`, in `unit`, and an `example` as it is written in a file."""
 
     least: float
@@ -32,8 +31,7 @@ class Usual:
     example: str = ""
 
 
-@dataclass(frozen=True)
-class Shown:
+class Shown(Struct):
     """What is known of a field besides its schema: its option of the command line, what holds where it is absent, and what is usual."""
 
     option: str = ""

@@ -29,8 +29,8 @@ from nivel.machine.bodies.point_masses import problems_of_points
 from nivel.machine.bodies.shape import Shape, Standing
 from nivel.machine.bodies.touching import Touching
 from nivel.machine.control.order import problems_of_control
+from nivel.machine.core.element import Marker
 from nivel.machine.core.index import Index
-from nivel.machine.core.marker import Marker
 from nivel.machine.core.orientation import matrix_from_euler_parameters
 from nivel.machine.core.placement import placement
 from nivel.machine.core.record import Checked, Problem, entry, lines_of, restated

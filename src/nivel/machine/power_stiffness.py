@@ -8,9 +8,9 @@ from nivel.machine.core.coefficient import COORDINATE, COORDINATE_EFFORT, kind_f
 from nivel.machine.given import OneNumber
 from nivel.machine.units import quantity
 from nivel.machine.units.arithmetic import evaluate
-from nivel.machine.units.dimension import KINDS, Dimension, described, is_angular, without_angle
 from nivel.machine.units.measure import measure
 from nivel.machine.units.tree import ExpressionError, Parameters
+from nivel.machine.units.unit import KINDS, Dimension, described, is_angular, without_angle
 
 _HERTZ: Final = 1.5
 

@@ -14,8 +14,7 @@ from nivel.kernels.record.function import ANGULAR_VELOCITY, COORDINATE, OUTPUT, 
 from nivel.kernels.record.hook import Family
 from nivel.known import PartFunction
 from nivel.lazy import dataclass, field
-from nivel.machine.core.element import End, GlobalPoint
-from nivel.machine.core.marker import Marker
+from nivel.machine.core.element import End, GlobalPoint, Marker
 from nivel.machine.laws.symbols import find_symbol, is_output
 from nivel.machine.laws.time_function import TimeFunction
 from nivel.machine.laws.varying_value import Table

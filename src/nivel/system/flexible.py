@@ -13,7 +13,7 @@ from nivel.flexible.body.body_file import read_body
 from nivel.flexible.body.invariants import Invariants
 from nivel.kernels.bodies.geometric_stiffening import FIRST_AXIS, SECOND_AXIS
 from nivel.kernels.record.flexible_record import Flexible, ModalTree
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import MassProperties
 from nivel.machine.machine_record import MachineRecord
@@ -24,8 +24,7 @@ from nivel.system.tables import Array, index_array, zeros
 SHARE = np.array([1.0, 1.0, 1.0, 0.5, 0.5, 0.5])
 
 
-@dataclass(frozen=True)
-class Bending:
+class Bending(Struct):
     """A body of the machine that bends: its number, its modes, their damping (n,) [1/s], their places among all of its file, names of the
     inertia invariants that it moves without. beam : name of the beam whose node it is, empty for all others."""
 
@@ -43,8 +42,7 @@ class Bending:
         return replace(its, **{name: np.zeros_like(getattr(its, name)) for name in self.neglected})
 
 
-@dataclass(frozen=True)
-class Frame:
+class Frame(Struct):
     """A frame at an interface: number of the flexible body, number of the interface."""
 
     flexible: int
@@ -173,8 +171,7 @@ def flexible_tables(
     )
 
 
-@dataclass(frozen=True)
-class _Padded:
+class _Padded(Struct):
     """Invariants of all flexible bodies, padded with zeros to n modes."""
 
     bending: Sequence[Bending]

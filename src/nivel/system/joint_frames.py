@@ -12,9 +12,8 @@ from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
 from nivel.errors import Fault, ModelError, gathered, located, refuse
 from nivel.flexible.body.body import Interface
-from nivel.lazy import dataclass, field
-from nivel.machine.core.element import End, GlobalPoint
-from nivel.machine.core.marker import Marker
+from nivel.lazy import Struct, dataclass, field
+from nivel.machine.core.element import End, GlobalPoint, Marker
 from nivel.machine.core.placement import frame_from_axes, marker_frame
 from nivel.machine.core.vectors import cross
 from nivel.machine.machine_record import MachineRecord
@@ -196,8 +195,7 @@ class Directions:
         return placed
 
 
-@dataclass(frozen=True)
-class Tilt:
+class Tilt(Struct):
     """An axis that is nearly parallel to those of `others`, more of them than of its own kind: their names, and the angle [rad]."""
 
     joint: str

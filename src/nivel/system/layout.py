@@ -4,11 +4,10 @@ from collections.abc import Sequence
 from math import prod
 
 from nivel.elements.facts import StateFact
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 
 
-@dataclass(frozen=True)
-class Variable:
+class Variable(Struct):
     """One result variable and its place in a frame.
 
     dims : the first is always "time"; the others are keys of `FrameLayout.coordinates`.
@@ -23,8 +22,7 @@ class Variable:
     columns: slice
 
 
-@dataclass(frozen=True)
-class FrameLayout:
+class FrameLayout(Struct):
     """The columns of a frame: a row of `width` float64, column 0 is the time in seconds.
 
     variables : every variable but the time.

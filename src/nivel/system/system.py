@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.elements.facts import Coupled, StateFact
 from nivel.kernels.record.record import Control, Record
-from nivel.lazy import dataclass, field, nivel, replace
+from nivel.lazy import Struct, field, nivel, replace
 from nivel.machine.units.tree import Node as Tree
 from nivel.system.layout import FrameLayout
 from nivel.system.tables import Array, index_array
@@ -20,16 +20,14 @@ if TYPE_CHECKING:
     from nivel.system.signals.unit import Unit
 
 
-@dataclass(frozen=True)
-class Equations:
+class Equations(Struct):
     """What a formulation asks of the layout of the state: velocities a rigid body, and whether normalisation is a row."""
 
     velocities: int
     normalisation: bool
 
 
-@dataclass(frozen=True)
-class StateMap:
+class StateMap(Struct):
     """What the entries of y are.
 
     plain : (n, 2) where a position stands and where its rate, q̇ = v. turns : (n, 2) where four Euler parameters stand and where their
@@ -41,8 +39,7 @@ class StateMap:
     units: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class System:
+class System(Struct):
     """The numbers of one machine for one formulation.
 
     rows : name of every constraint row of the formulation, e.g. ``hinge.s.x``; the first `machine_rows` belong to joints, couplings

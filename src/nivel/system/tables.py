@@ -14,7 +14,7 @@ from nivel.kernels.bodies.driven_turn import BASE
 from nivel.kernels.bodies.measure import COMBINED
 from nivel.kernels.record.hook import FAMILIES, Family
 from nivel.kernels.record.record import NONE, Bodies, Coordinates, Elements, Markers
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, dataclass, field
 
 Array = NDArray[np.float64]
 AnyRecord = TypeVar("AnyRecord", bound=tuple[Any, ...])
@@ -100,8 +100,7 @@ class MarkerTable:
         )
 
 
-@dataclass(frozen=True)
-class Rail:
+class Rail(Struct):
     """A beam that something slides on: markers of its nodes, their places along the unstressed line, that of the slider as placed [m]."""
 
     nodes: tuple[int, ...]
@@ -109,8 +108,7 @@ class Rail:
     place: float
 
 
-@dataclass(frozen=True)
-class Wheel:
+class Wheel(Struct):
     """A wheel that rolls on a plane: its marker, radius of the circle in its rim and of the crown about that [m]."""
 
     marker: int

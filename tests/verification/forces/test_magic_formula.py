@@ -6,15 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from nivel.elements.forces.magic_formula import (
-    Magic,
-    MagicFormula,
-    lever,
-    magic,
-    numbers_of,
-    overturning,
-    resistance,
-)
+from nivel.elements.forces.magic_formula import Magic, MagicFormula, lever, magic, numbers_of, overturning, resistance
 from nivel.errors import ModelError
 from nivel.files import parse_machine
 from nivel.files.tyre_file import formula_of, parsed

@@ -16,8 +16,8 @@ from nivel.errors import Fault, ModelError, gathered, refuse
 from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 from nivel.machine.study import parameter as study
-from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import Quantity
+from nivel.machine.units.unit import KINDS
 from nivel.model import Model
 from nivel.results.curve import Curve, Number, curve_of, extreme, integral_of_product, largest, smallest
 from nivel.results.curve import integral as whole

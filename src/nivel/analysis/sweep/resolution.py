@@ -20,7 +20,7 @@ from nivel.machine.settings.analyses import SETTINGS
 from nivel.machine.settings.values import settings_of
 from nivel.machine.study.any_quantity import dimension_of, si
 from nivel.machine.study.parameter import AtEvent, EventTime, Output, PythonOutput, StudyParameter, Tolerance, Values
-from nivel.machine.units.dimension import symbol
+from nivel.machine.units.unit import symbol
 from nivel.model import Model
 from nivel.results.frames.contents import MemoryContents
 from nivel.results.result import Result

@@ -32,7 +32,7 @@ from nivel.kernels.algebra.spatial import dot
 from nivel.kernels.algebra.vectors import combined, minus, plus, times
 from nivel.kernels.record.record import record_at
 from nivel.known import Beam
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.native.function import stage
 
 WIDTH = 4  # vectors of a node
@@ -120,8 +120,7 @@ def apply(machine, index, n, t):
     push_vectors(record.bodies, record.markers, index, n, WIDTH)
 
 
-@dataclass(frozen=True)
-class Strains:
+class Strains(Struct):
     """Strains of sections at points, and what they are measured with.
 
     share : (n, g) between 0 and 1 in each element. weight : (n, g) [m]. value : (…, n, g, 6) (Γ, Κ).

@@ -34,7 +34,7 @@ from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import FAMILIES, Family, family
 from nivel.kernels.record.record import NONE, Record, record_at
 from nivel.known import SystemBuilder
-from nivel.lazy import dataclass, scipy
+from nivel.lazy import Struct, scipy
 from nivel.machine.core.orientation import matrix_from_euler_parameters
 from nivel.machine.core.placement import placement
 from nivel.machine.core.record import GROUND
@@ -301,8 +301,7 @@ def hold(machine, number, t):
 # --- shape functions, strains and masses of an unstressed beam ---
 
 
-@dataclass(frozen=True)
-class Elements:
+class Elements(Struct):
     """The elements of a beam, n of them with p + 1 nodes each and g points.
 
     nodes : (n, p + 1) numbers of the beam's nodes. reference : which of an element's nodes rotations are relative to.
@@ -318,8 +317,7 @@ class Elements:
     strain: Array
 
 
-@dataclass(frozen=True)
-class Masses:
+class Masses(Struct):
     """How the mass of a beam belongs to its nodes.
 
     mass : (N,) [kg] and inertia : (N, 3, 3) [kg m²] about the mass centre, section axes, lumped at the nodes.

@@ -15,7 +15,7 @@ from nivel.elements.beams.exact import gauss
 from nivel.elements.facts import Coupled
 from nivel.kernels.record.hook import Family
 from nivel.known import Beam, BeamSection, SystemBuilder
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 
 VECTORS = 72  # places, rates and forces of an element
@@ -114,8 +114,7 @@ def unstressed_vectors(beam: Beam) -> Array:
     return np.concatenate([place[:, None], np.swapaxes(axes, 1, 2)], axis=1)[:, : vectors_of_node(beam)]
 
 
-@dataclass(frozen=True)
-class Line:
+class Line(Struct):
     """The line of a beam at points of its elements: r', r'' and r''' (…, n, g, 3), with respect to unstressed length."""
 
     slope: Array

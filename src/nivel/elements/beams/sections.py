@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import BeforeValidator
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.coefficient import SectionLength
 from nivel.machine.core.record import Checked, Problem
 from nivel.machine.core.vectors import Array
@@ -137,8 +137,7 @@ class Values(Checked):
 SectionRecord = Annotated[Circle | Tube | Rectangle | Box | IBeam | Values, Field(discriminator="type")]
 
 
-@dataclass(frozen=True)
-class Section:
+class Section(Struct):
     """A cross-section about its centroid, principal axes y and z.
 
     area [m²]; iy, iz [m⁴] ∫ z² dA, ∫ y² dA; torsion [m⁴] J of St Venant; shear_y, shear_z [m²] shear areas, infinite for
@@ -294,8 +293,7 @@ class GeneralSection(Checked):
 BeamSectionRecord = Annotated[SectionRecord | GeneralSection, Field(discriminator="type")]
 
 
-@dataclass(frozen=True)
-class BeamSection:
+class BeamSection(Struct):
     """stiffness (6, 6) of (Γ, Κ) [N, N m, N m²]; mass [kg/m]; mass_centre (3,) [m]; inertia (3, 3) about it [kg m]."""
 
     stiffness: Array

@@ -18,14 +18,13 @@ from nivel.elements.forces.bushing import BushingRow
 from nivel.elements.forces.bushing import apply as bushing
 from nivel.kernels.record.record import NONE
 from nivel.known import Beam, SystemBuilder
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 
 # points of integration over half of a segment: exact for straight beams, to round-off for arcs of a few degrees
 POINTS = 8
 
 
-@dataclass(frozen=True)
-class Segments:
+class Segments(Struct):
     """mass : (N,) [kg], centre : (N, 3) [m] of mass and inertia : (N, 3, 3) [kg m²] about it, in the axes of the nodes."""
 
     mass: Array

@@ -11,19 +11,18 @@ from pydantic_core import CoreSchema, core_schema
 
 from nivel.elements.circuits.fluids import ATMOSPHERE
 from nivel.known import SystemBuilder
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.coefficient import Area, Numbers, Pressure, Volume
 from nivel.machine.core.record import Checked, Problem
 from nivel.machine.given import Field, Given, ManyNumbers, OneNumber
 from nivel.machine.laws.varying_value import Table, read_table
-from nivel.machine.units import dimension
+from nivel.machine.units import unit
 from nivel.machine.units.quantity import Quantity, fault, listed, parameters_of, shown
 
 SMOOTH = ("linear", "cubic", "monotone")
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(Struct):
     """A table whose values are not negative. It is none of the functions of a machine: only its own component reads it."""
 
     table: Table
@@ -50,8 +49,7 @@ class Curve:
 SomeCurve = Given[Curve, Curve, Curve | Table | Mapping[str, Any]]
 
 
-@dataclass(frozen=True)
-class CurveOf:
+class CurveOf(Struct):
     """Annotation of a field that is a Curve of a quantity of `kind` over the symbol `over`."""
 
     kind: str
@@ -91,7 +89,7 @@ class CurveOf:
                 }
                 for given, required in ((inline, ("points", "values")), (filed, ("csv",)))
             ],
-            "description": f"{dimension.KINDS[self.kind][0]} over `{self.over}`: a table, inline or from a CSV file",
+            "description": f"{unit.KINDS[self.kind][0]} over `{self.over}`: a table, inline or from a CSV file",
         }
 
 

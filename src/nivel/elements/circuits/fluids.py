@@ -18,7 +18,7 @@ from pydantic import Discriminator, GetCoreSchemaHandler, Tag
 from pydantic_core import CoreSchema
 
 from nivel.elements.circuits import ranges
-from nivel.lazy import dataclass, fields, replace
+from nivel.lazy import Struct, fields, replace
 from nivel.machine.core import coefficient
 from nivel.machine.core.record import Checked, Name, Problem, entry, superfluous
 from nivel.machine.given import Field, Maybe, OneNumber
@@ -28,8 +28,7 @@ CELSIUS: Final = 273.15
 AT_CLASS, AT_HOT, AT_DENSITY, AT_MODULUS = CELSIUS + 40.0, CELSIUS + 100.0, CELSIUS + 15.0, CELSIUS + 20.0  # [K]
 
 
-@dataclass(frozen=True)
-class Liquid:
+class Liquid(Struct):
     """Constants of a liquid: density [kg/m³], bulk modulus [Pa] at atmospheric pressure, what it grows by with the pressure, kinematic
     viscosity [m²/s], its growth with the pressure [1/Pa], thermal expansion [1/K] and heat capacity [J/(kg K)]."""
 
@@ -42,8 +41,7 @@ class Liquid:
     heat_capacity: float = 1900.0
 
 
-@dataclass(frozen=True)
-class Grade:
+class Grade(Struct):
     """Numbers of a data sheet: ν [mm²/s] at 40 and 100 °C, density [kg/m³] at 15 °C, its fall [1/K], Barus's α [1/Pa], and the bulk
     modulus [Pa] at 20 °C with its slope; None: by Hayward. Heat capacity [J/(kg K)]."""
 

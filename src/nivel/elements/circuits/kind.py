@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 
 from nivel.elements.kind import Kind
 from nivel.kernels.record.hook import Family
-from nivel.lazy import dataclass
 
 if TYPE_CHECKING:
     from nivel.elements.circuits.component import Component
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
 Swept = dict[str, float]  # what pistons leave open in each node at half their strokes [m³]
 
 
-@dataclass(frozen=True)
 class ComponentKind(Kind):
     """All that the package knows of a kind of component.
 

@@ -12,11 +12,10 @@ from nivel.elements.circuits.volumes import VOLUME
 from nivel.elements.facts import StateFact
 from nivel.kernels.record.record import NONE
 from nivel.known import Component, Gas, NodeMaker, SystemBuilder
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 
 
-@dataclass(frozen=True)
-class Node:
+class Node(Struct):
     """One node of a circuit.
 
     kind : VOLUME, GIVEN or SIGNAL of `nivel.elements.circuits.volumes`. state : of its mass or signal, or NONE. room : as `Circuit.room`.

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final, Literal
 
 from nivel.elements.circuits.component import SENSING
-from nivel.lazy import dataclass, field, replace
+from nivel.lazy import Struct, field, replace
 
 SPRING: Final = "l3 -5 l4 10 l4 -10 l3 5"
 BAR: Final = 1e-5, "bar"
@@ -14,8 +14,7 @@ LETTER: Final = 6.4  # px, at 11 px
 PIN: Final = 22.0  # px between pins of a box
 
 
-@dataclass(frozen=True)
-class Symbol:
+class Symbol(Struct):
     """What is drawn of a component.
 
     body : SVG about (0, 0). wide, high : half of its size. above, below : x of the pin of each port above, or below, the symbol.

@@ -8,8 +8,7 @@ from pydantic import BeforeValidator
 from nivel.elements.contacts.height_field import HeightField
 from nivel.elements.facts import Output, of_force
 from nivel.machine.core import coefficient
-from nivel.machine.core.element import Acts, ForceElement, Holds, Inequalities
-from nivel.machine.core.marker import ManyMarkers, MarkerPlace
+from nivel.machine.core.element import Acts, ForceElement, Holds, Inequalities, ManyMarkers, MarkerPlace
 from nivel.machine.core.record import GROUND, BodyName, Problem, Record, superfluous
 from nivel.machine.given import Field, Given, ManyNames, Maybe, OneRecord, TwoNames, TwoNumbers, TwoRecords
 from nivel.machine.laws.time_function import ContactForce, SurfaceSpin, SurfaceVelocity, ThreeFunctions

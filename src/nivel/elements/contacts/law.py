@@ -28,7 +28,7 @@ from nivel.kernels.forces.wrench import add_force_at, velocity_at
 from nivel.kernels.record.function import evaluate_function, evaluate_motion
 from nivel.kernels.record.hook import Family, family
 from nivel.kernels.record.record import NONE, record_at
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.native.function import stage
 
 # columns; FUNCTIONS: the first of four, or NONE; SMOOTH: 1 where they are motions, whose rates are known; FRAME: the marker
@@ -362,8 +362,7 @@ def pair(is_far: Callable[..., Any], speed: Callable[..., Any]) -> Callable[[Cal
     return family_of
 
 
-@dataclass(frozen=True)
-class Points:
+class Points(Struct):
     """Points of a pair: how many, radius [m] of the balls that hold both shapes, and what its family has behind the law."""
 
     count: int

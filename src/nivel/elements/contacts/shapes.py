@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
 from nivel.known import Contact, SystemBuilder
-from nivel.lazy import dataclass, scipy
+from nivel.lazy import Struct, scipy
 from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Mesh, Sphere
 from nivel.machine.bodies.solids import box_size, extrusion_corners, length, mesh_surface, part_corners
 from nivel.machine.bodies.touching import Touching
@@ -26,8 +26,7 @@ SIDES = 32
 MOST_FACES = 200
 
 
-@dataclass(frozen=True)
-class Hull:
+class Hull(Struct):
     """middle (3,) [m] in the frame of the shape; corners (n, 3) from there; faces (f, 4): outward normal, distance; edges (e, 2): their
     corners."""
 

@@ -23,8 +23,7 @@ from nivel.kernels.record.record import NONE
 from nivel.known import SystemBuilder
 from nivel.machine.control.part import UnitFacts, UnitOutput
 from nivel.machine.core.coefficient import NotNegativePressure, PositiveAngle, PositiveNumber
-from nivel.machine.core.element import ForceElement
-from nivel.machine.core.marker import MarkerPlace
+from nivel.machine.core.element import ForceElement, MarkerPlace
 from nivel.machine.core.record import GROUND, Checked, Problem
 from nivel.machine.core.vectors import Array
 from nivel.machine.given import Field, OneNumber, OneRecord

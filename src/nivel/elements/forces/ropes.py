@@ -19,10 +19,9 @@ from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import SystemBuilder
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.coefficient import Damping, NotNegativeNumber, PositiveNumber, Stiffness
-from nivel.machine.core.element import Acts, BetweenMany, Inequalities
-from nivel.machine.core.marker import Marker
+from nivel.machine.core.element import Acts, BetweenMany, Inequalities, Marker
 from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.core.vectors import Array
 from nivel.machine.given import Field, ManyNumbers, Maybe, OneNumber
@@ -250,8 +249,7 @@ def _passed(radii: tuple[float, ...], bodies: list[str]) -> int:
     return 0 if radii[0] else len(radii) - 1
 
 
-@dataclass(frozen=True)
-class Way:
+class Way(Struct):
     """The way of a rope around wheels as its bodies are placed.
 
     axes (3, 3) : global, z along those of the wheels. places : body and centre (3,) of each. arcs [rad], fixed [rad] : of each place, the

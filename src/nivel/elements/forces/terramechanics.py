@@ -25,8 +25,7 @@ from nivel.kernels.record import function
 from nivel.known import SystemBuilder
 from nivel.machine.bodies.inertia import mass_of
 from nivel.machine.core.coefficient import PositiveAngle, Volume
-from nivel.machine.core.element import ForceElement
-from nivel.machine.core.marker import MarkerPlace, TwoMarkers
+from nivel.machine.core.element import ForceElement, MarkerPlace, TwoMarkers
 from nivel.machine.core.record import GROUND, Problem, superfluous
 from nivel.machine.given import Field, Maybe, OneRecord, TwoNumbers
 from nivel.machine.units.quantity import Length, PositiveLength, Whole

@@ -47,8 +47,7 @@ from nivel.kernels.record.function import evaluate_function
 from nivel.kernels.record.record import NONE, record_at
 from nivel.known import MachineRecord, SystemBuilder
 from nivel.machine.core.coefficient import NotNegativeNumber, PositiveForce, PositiveNumber, Pressure
-from nivel.machine.core.element import Acts, ForceElement, Inequalities
-from nivel.machine.core.marker import MarkerPlace
+from nivel.machine.core.element import Acts, ForceElement, Inequalities, MarkerPlace
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.record import Checked, Problem, superfluous
 from nivel.machine.given import Field, Maybe, OneNumber, OneRecord, TwoNumbers

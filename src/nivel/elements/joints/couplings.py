@@ -13,7 +13,7 @@ from typing import Annotated, ClassVar, Final, Literal
 
 from nivel.elements.facts import is_angle
 from nivel.known import RowTable, SystemBuilder
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.coefficient import CoordinatePosition, PositiveNumber, Truth
 from nivel.machine.core.record import Checked, Name, Problem, superfluous
 from nivel.machine.given import Field, ManyNames, ManyNumbers, Maybe, TwoNames, TwoNumbers
@@ -223,8 +223,7 @@ Coupling = Annotated[Gear | Belt | Rack | LinearCoupling | FunctionCoupling, Fie
 TURN: Final = 2.0 * pi
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(Struct):
     """A function of coordinates in numbers of functions: its value, ∂/∂q of each coordinate q, and (q, r, function) of its second
     derivatives, those of two different coordinates in both orders."""
 

@@ -10,7 +10,7 @@ from typing import ClassVar, Final, Literal
 
 from nivel.elements.joints import JOINTS, JointType
 from nivel.elements.joints.kind import JointKind
-from nivel.machine.core.marker import TwoMarkers
+from nivel.machine.core.element import TwoMarkers
 from nivel.machine.core.placement import Triple, angle_between, bad_axis_pair, no_direction, parallel
 from nivel.machine.core.record import BodyName, Checked, Name, Problem, Record, superfluous, unknown_word
 from nivel.machine.given import ANGULAR_SPEED, SLIDING_SPEED, Field, Given, Maybe, OneRecord, TwoNames, TwoPlaces, Usual

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
 
 from nivel.kernels.bodies.coordinate import ROTATION, TRANSLATION
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 from nivel.machine.core.vectors import Array
 
 if TYPE_CHECKING:
@@ -27,8 +27,7 @@ AXES: Final = {"x": 0, "y": 1, "z": 2}
 View = Literal["first", "second", "slot", "rail", "wheel"]
 
 
-@dataclass(frozen=True)
-class Coincident:
+class Coincident(Struct):
     """s: the marker points coincide; rows along the global axes [m]."""
 
     @property
@@ -36,8 +35,7 @@ class Coincident:
         return ("s.x", "s.y", "s.z")
 
 
-@dataclass(frozen=True)
-class PerpendicularAxes:
+class PerpendicularAxes(Struct):
     """d1: axis `a` of the first marker is perpendicular to axis `b` of the second [-]."""
 
     a: str
@@ -48,8 +46,7 @@ class PerpendicularAxes:
         return (f"d1.{self.a}{self.b}",)
 
 
-@dataclass(frozen=True)
-class PerpendicularDistance:
+class PerpendicularDistance(Struct):
     """d2: axis `a` of the marker `seen_from` is perpendicular to the vector from it to the other one [m]."""
 
     a: str
@@ -60,8 +57,7 @@ class PerpendicularDistance:
         return (f"{'d2' if self.seen_from == 'first' else self.seen_from}.{self.a}",)
 
 
-@dataclass(frozen=True)
-class Measured:
+class Measured(Struct):
     """A coordinate between the joint's markers, see `nivel.kernels.bodies.coordinate`."""
 
     kind: int
@@ -69,8 +65,7 @@ class Measured:
     seen_from: View = "first"
 
 
-@dataclass(frozen=True)
-class Combination:
+class Combination(Struct):
     """Σ factor coordinate is constant: what it is as placed, the number that the joint's field `given` holds, or, with `zero`, nothing.
 
     velocity : the coordinate has a rate alone, which is held at zero. effort : name of the force on it in results, and its long name.
@@ -92,8 +87,7 @@ class Combination:
 Basic = Coincident | PerpendicularAxes | PerpendicularDistance | Combination
 
 
-@dataclass(frozen=True)
-class JointCoordinate:
+class JointCoordinate(Struct):
     """One joint coordinate: its name after the joint's, what it is, its unit, and where it is zero and positive."""
 
     name: str
@@ -102,8 +96,7 @@ class JointCoordinate:
     meaning: str
 
 
-@dataclass(frozen=True)
-class Composition:
+class Composition(Struct):
     """A joint: constraints and coordinates. when_parallel : what it is where the axes as placed are parallel. note : said before the
     convention."""
 
@@ -170,8 +163,7 @@ class Start(NamedTuple):
     numbers: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 0.0)
 
 
-@dataclass(frozen=True)
-class TreeJoint:
+class TreeJoint(Struct):
     """How a joint carries a body in the tree of relative coordinates, by a marker near to the ground and one on the child.
 
     motion : its number in `nivel.kernels.tree.joints`, or a `joint_motion`. units : of its positions; if it is `turning`, the last four are
@@ -203,8 +195,7 @@ class TreeJoint:
         return len(self.units) - self.turning
 
 
-@dataclass(frozen=True)
-class Looks:
+class Looks(Struct):
     """What pictures make of a joint.
 
     at : where its sign stands: at its first point, its second, or that of the body that moves. ends : kinds of joints whose signs stand at
@@ -234,8 +225,7 @@ THIN: Final = f'<circle r="{SIGN}" class="thin"/>'  # of kinds that have no sign
 WITH_AXIS: Final[dict[str, Any]] = {"place": ("point", "axis"), "may": ("x_axis",)}
 
 
-@dataclass(frozen=True)
-class JointKind:
+class JointKind(Struct):
     """All that the package knows of a kind of joint.
 
     composition : constraints and coordinates. composed(joint) : the same, where it depends on the joint. tree : how it carries a body;

@@ -9,12 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.flexible.body.invariants import Invariants
-from nivel.lazy import dataclass, field, replace
+from nivel.lazy import Struct, field, replace
 from nivel.machine.core.vectors import Array, Triangles, Whole
 
 
-@dataclass(frozen=True)
-class LeftOut:
+class LeftOut(Struct):
     """k modes Z of unit modal mass that are not among the n of the body.
 
     eigenvalues : (k,) [1/s²]. phi : (i, 6, k) displacement and turn of the interfaces. mass : (k, n) Zᵀ M Φ, stiffness : (k, n) [1/s²]
@@ -54,8 +53,7 @@ def own_modes(left: Whole, kept: Whole, eigenvalues: Array, phi: Array, its: Inv
     return LeftOut(eigenvalues[left], phi[:, :, left], none, none, its.I3[:, left], its.I4[:, left], its.I8[left])
 
 
-@dataclass(frozen=True)
-class Interface:
+class Interface(Struct):
     """A node by name: where markers, joints and forces attach.
 
     node : its place among the nodes; position : (3,) [m] undeformed, body frame.
@@ -71,8 +69,7 @@ class Interface:
     turns: bool
 
 
-@dataclass(frozen=True)
-class StressModes:
+class StressModes(Struct):
     """Modal stress: stress = Σ modes[:, :, j] q_j.
 
     station_node : (s,) place of the node of each station; labels : (s,) what tells stations at one node apart, or empty.
@@ -86,8 +83,7 @@ class StressModes:
     strain: Array | None = None
 
 
-@dataclass(frozen=True)
-class MeshError:
+class MeshError(Struct):
     """share : (n,) by which the energy of each mode of the body is wrong. dynamic : only where the mode accelerates, as it does when it
     vibrates freely; else wherever it is bent."""
 
@@ -95,8 +91,7 @@ class MeshError:
     dynamic: bool
 
 
-@dataclass(frozen=True)
-class ReducedBody:
+class ReducedBody(Struct):
     """A flexible body in the floating frame of reference.
 
     **Frame.** The body frame is that of the finite-element model: same origin, same axes. At rest and undeformed the node
@@ -214,8 +209,7 @@ THICKNESS: Final = 0.012
 MOST: Final = 3_000_000
 
 
-@dataclass(frozen=True)
-class MovingSurface:
+class MovingSurface(Struct):
     """vertices (n, 3) [m] undeformed, body frame; triangles (m, 3); modes (k, n, 3) displacement of each vertex by each mode.
 
     nodes : (n,) place of the node of the body that each vertex is at, or moves with.

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 
 LEVI_CIVITA = np.zeros((3, 3, 3))
@@ -18,8 +18,7 @@ for _a, _b, _c in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
     LEVI_CIVITA[_a, _b, _c], LEVI_CIVITA[_a, _c, _b] = 1.0, -1.0
 
 
-@dataclass(frozen=True)
-class Invariants:
+class Invariants(Struct):
     """Inertia invariants of n modes, components in the body frame, about its origin; a tilde is the cross-product matrix.
 
     I1 : ()  [kg] Σ m

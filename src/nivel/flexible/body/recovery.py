@@ -12,14 +12,13 @@ import numpy as np
 
 from nivel.errors import ModelError
 from nivel.flexible.body.body import ReducedBody, StressModes
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array, Whole
 
 BLOCK: Final = 4_000_000  # numbers of stress at once: 32 MB
 
 
-@dataclass(frozen=True)
-class HotSpot:
+class HotSpot(Struct):
     """A place of great stress: its `station`, the number of its node, the fibre if there are several, its place (3,) [m].
 
     value : [Pa] the largest von Mises stress there; index : of the moment in the history; signed : [Pa] the principal
@@ -35,8 +34,7 @@ class HotSpot:
     signed: float
 
 
-@dataclass(frozen=True)
-class Envelope:
+class Envelope(Struct):
     """The largest von Mises stress (s,) [Pa] at each station over a history, and at which of its moments (s,) it was."""
 
     value: Array
@@ -162,8 +160,7 @@ def hot_spots(body: ReducedBody, q: Array, *, count: int = 5, apart: float = 0.0
     return spots
 
 
-@dataclass(frozen=True, order=True)
-class Cycle:
+class Cycle(Struct, order=True):
     """A counted cycle: its `range` and `mean` in the unit of the history, and `count`, 1 or ½."""
 
     range: float

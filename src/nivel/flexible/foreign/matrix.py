@@ -11,7 +11,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from nivel.flexible.model.model import Sparse
-from nivel.lazy import dataclass, scipy
+from nivel.lazy import Struct, scipy
 from nivel.machine.core.vectors import Whole
 
 Label = tuple[int, int]  # node, direction 1 … 6
@@ -26,8 +26,7 @@ class FormatError(ValueError):
         super().__init__(f"line {line}: {message}" if line else message)
 
 
-@dataclass(frozen=True)
-class FileMatrix:
+class FileMatrix(Struct):
     """`matrix` (N, N); `labels`: node and direction (1 … 6) of each row, or None where the file does not say."""
 
     matrix: Sparse

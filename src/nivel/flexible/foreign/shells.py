@@ -15,7 +15,7 @@ import numpy as np
 
 from nivel.flexible.foreign.matrix import FormatError, Label
 from nivel.flexible.foreign.mesh import SHELLS, Array, Mesh, Section, Shell
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 
 SMOOTH: Final = 0.939693  # cosine of the largest angle, 20°, between normals that are averaged
 FLAT: Final = 0.999962  # cosine of the angle below which normals are the same line
@@ -39,8 +39,7 @@ class Knot(NamedTuple):
     stretch: int
 
 
-@dataclass(frozen=True)
-class Expansion:
+class Expansion(Struct):
     """The mesh of solids, and what became of the nodes of shells.
 
     layers : by number of a node of shells, the numbers of its nodes from the bottom to the top. offsets : how far the node is above

@@ -9,8 +9,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from nivel.errors import Fault, ModelError, refuse
-from nivel.flexible.checks.checks import unsymmetric
-from nivel.flexible.foreign import calculix
+from nivel.flexible.checks.findings import unsymmetric
+from nivel.flexible.foreign import stress as calculix
 from nivel.flexible.foreign.matrix import (
     FileMatrix,
     FormatError,
@@ -29,11 +29,10 @@ from nivel.flexible.model.model import Array, FiniteElementModel, Sparse, Whole,
 from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.records import LENGTHS, MASSES
 from nivel.flexible.model.selection import NodeSets
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 
 
-@dataclass(frozen=True)
-class Followers:
+class Followers(Struct):
     """Nodes whose displacements follow from rows of the matrices.
 
     numbers : of the f nodes; position : (f, 3) [m]; motion : (3 f, N) displacements x, y, z of each from the N rows.

@@ -8,14 +8,13 @@ are Hermite's. θy = -w', θz = v' then.
 import numpy as np
 
 from nivel.elements.beams.sections import Material, Section
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array
 
 GAUSS, GAUSS_WEIGHT = (np.polynomial.legendre.leggauss(4)[0] + 1.0) / 2.0, np.polynomial.legendre.leggauss(4)[1] / 2.0
 
 
-@dataclass(frozen=True)
-class Beam:
+class Beam(Struct):
     """An element: `length` [m], its `section` and `material`; `shear`: whether it deforms by shear (Timoshenko)."""
 
     length: float

@@ -14,7 +14,7 @@ from nivel.errors import refuse
 from nivel.flexible.model.beam import Beam, end_stress, geometric_stiffness, mass_points, stiffness
 from nivel.flexible.model.model import Array, FiniteElementModel, PointMass, Sparse, Whole, numbered
 from nivel.flexible.model.model_file import Located
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 
 
 def local_axes(along: Array, up: Array | None) -> Array:
@@ -56,8 +56,7 @@ def _mass(
     return PointMass(np.concatenate(places), shape, sp.csr_array(sp.diags_array(np.concatenate(masses))))
 
 
-@dataclass(frozen=True)
-class BeamElements:
+class BeamElements(Struct):
     """The beams of a frame: stress at the fibres of both ends.
 
     ends : nodes of each beam; axes : (e, 3, 3) local axes as rows; names : of the beams in the model file.

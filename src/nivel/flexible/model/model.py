@@ -15,15 +15,14 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from nivel.lazy import dataclass, field, replace
+from nivel.lazy import Struct, field, replace
 from nivel.machine.core.vectors import Array, Whole
 
 # a scipy.sparse.csr_array or csc_array with two dimensions; SciPy's own types know neither their shape nor their elements
 Sparse = Any
 
 
-@dataclass(frozen=True)
-class PointMass:
+class PointMass(Struct):
     """Points that carry mass.
 
     position : (p, 3) [m]
@@ -55,8 +54,7 @@ class PointMass:
         return replace(self, weight=self.weight * factor)
 
 
-@dataclass(frozen=True)
-class MatrixMass:
+class MatrixMass(Struct):
     """A mass matrix of which no more is known, (N, N).
 
     position : (n, 3) [m] nodes; freedoms : (n, 6) numbers of the rows of x, y, z and the turns about x, y, z of every
@@ -180,8 +178,7 @@ class Elements(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class FiniteElementModel:
+class FiniteElementModel(Struct):
     """A linear elastic body that nothing holds.
 
     node_ids : (n,) numbers by which people know the nodes; position : (n, 3) [m]

@@ -12,7 +12,7 @@ import scipy.sparse as sp
 from nivel.elements.beams.sections import Material
 from nivel.flexible.model.model import Array, Sparse, Whole
 from nivel.flexible.model.solid_shapes import SolidShape
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 
 CHUNK: Final = 8  # fields at once
 ELEMENTS: Final = 1000  # at once, for many fields
@@ -34,8 +34,7 @@ def isotropic(E: Array, nu: Array) -> Array:
     return out
 
 
-@dataclass(frozen=True)
-class SolidBlock:
+class SolidBlock(Struct):
     """Elements of one shape and material: places of nodes (e, n) at `position` (…, 3) [m].
 
     incompatible : hexahedra of eight nodes that bend by incompatible modes; inner : (e, 3, 3) their freedoms [mode, direction], or None
@@ -129,8 +128,7 @@ class SolidBlock:
         return np.asarray(-np.linalg.solve(stiffness, force), dtype=np.float64).reshape(len(self.nodes), 3, 3, -1)
 
 
-@dataclass(frozen=True)
-class SolidElements:
+class SolidElements(Struct):
     """Solids of known elasticity: blocks of elements of a shape and a material each, freedoms (n, 3) of the nodes, position (n, 3) [m]."""
 
     blocks: tuple[SolidBlock, ...]

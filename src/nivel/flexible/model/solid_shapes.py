@@ -12,13 +12,12 @@ from typing import Final
 import numpy as np
 
 from nivel.flexible.model.model import Array, Whole
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 
 Edges = tuple[tuple[int, int], ...]
 
 
-@dataclass(frozen=True, eq=False)
-class SolidShape:
+class SolidShape(Struct, eq=False):
     """An element shape in local coordinates.
 
     nodes : (n, 3); powers : (n, 3) of the monomials that its shape functions are made of.

@@ -19,7 +19,7 @@ from nivel.flexible.model.records import BoxPart, ConePart, CylinderPart, Part, 
 from nivel.flexible.model.selection import NodeSets
 from nivel.flexible.model.solid_elements import SolidBlock, SolidElements, elasticity, surface
 from nivel.flexible.model.solid_shapes import TETRAHEDRON_10
-from nivel.lazy import dataclass, meshio, skfem
+from nivel.lazy import Struct, meshio, skfem
 
 GMSH_TYPE: Final = 11  # gmsh's number of quadratic tetrahedra
 TO_VTK: Final = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]  # gmsh has the edges 23 and 13 the other way round
@@ -28,8 +28,7 @@ LONGEST: Final = 7200.0  # [s] of meshing
 AROUND: Final = 12  # elements around a circle at least
 
 
-@dataclass(frozen=True)
-class SolidMesh:
+class SolidMesh(Struct):
     """Tetrahedra (e, 10) of nodes at (n, 3) [m], and the exact volume of the shape [m³]."""
 
     nodes: Whole

@@ -14,7 +14,7 @@ from nivel.errors import ModelError
 from nivel.flexible.model.model import Array, Sparse
 from nivel.flexible.reduction.factor import NoStiffnessError, Whole, lowest_modes, pivots
 from nivel.flexible.reduction.free_body import FreeBody
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 
 
 def stiffening(body: FreeBody, modes: Array, support: Whole, loaded: dict[str, Whole]) -> dict[str, Array]:
@@ -83,16 +83,14 @@ NEXT = 6  # modes beyond those that are kept, by which a run tells whether it la
 MOST_BOUNDARY = 1200  # interface freedoms: each makes a correction mode
 
 
-@dataclass(frozen=True)
-class ModeCount:
+class ModeCount(Struct):
     """How many normal modes: `count` of them, or all `up_to` a frequency [Hz], or both (whatever is less)."""
 
     count: int | None = None
     up_to: float | None = None
 
 
-@dataclass(frozen=True)
-class Basis:
+class Basis(Struct):
     """`vectors` (N, k): `extra` ones that may depend on the others, interface modes, and `normal` modes at the end with their
     `frequencies` [Hz], of the body as it was held. left : (N, c) the next normal modes, which are not taken; `held` : whether they leave
     the interfaces where they are.

@@ -11,11 +11,10 @@ import scipy.sparse as sp
 
 from nivel.flexible.model.model import Array, FiniteElementModel, Sparse
 from nivel.flexible.reduction.factor import Factor, NoStiffnessError, Whole, determinate, lowest_modes
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 
 
-@dataclass(frozen=True)
-class FreeBody:
+class FreeBody(Struct):
     """`model` with its matrices K, M (N, N).
 
     Factors of K take most of the memory of a reduction, so there is one at a time, the last that was asked for.
@@ -95,8 +94,7 @@ NOTHING: Final = 1e-22  # share of a vector's mass: what round-off leaves of a r
 RIGID: Final = 1e-6  # a mode whose mass is that of a rigid motion but for this share is one
 
 
-@dataclass(frozen=True)
-class Orthonormal:
+class Orthonormal(Struct):
     """Modes (N, n) with Φᵀ M Φ = 1, Φᵀ K Φ = diag(`eigenvalues`) [1/s²].
 
     rigid_frequencies : [Hz] the six that the reduced model had for rigid motions, zero except for round-off; empty where the

@@ -12,13 +12,12 @@ from nivel.flexible.model.model_file import Located
 from nivel.flexible.model.records import InterfaceRecord
 from nivel.flexible.model.selection import NodeSets, chosen_nodes
 from nivel.flexible.reduction.factor import pivots
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 
 FLAT: Final = 1e-9  # the nodes of a surface must spread in two directions at least by this share of its size
 
 
-@dataclass(frozen=True)
-class Attachment:
+class Attachment(Struct):
     """An interface of the model: `node` is its place among the nodes; `tied` are the nodes that it stands for, if any."""
 
     name: str

@@ -9,7 +9,7 @@ restrictions in place of their tangents: with these, a linearly implicit step ov
 it is one step of Newton's method on a root.
 
 Guard: where pressures of Y₁ and Y₂ differ by more than LARGEST, or a mass would vanish, the step is made in parts
-(`nivel.integrate.rosenbrock.parts`). Of the smallest parts that cannot be trusted either Y₂ is taken, or where that is no state, Y₁; they
+(`step_in_parts`). Of the smallest parts that cannot be trusted either Y₂ is taken, or where that is no state, Y₁; they
 are counted, and the largest difference is kept, in `Circuit.guard`.
 
 Where surfaces of a contact or stop that were apart at the begin touch in the middle, J of the second half is that of the middle, and Y₂ is
@@ -30,13 +30,14 @@ from nivel.integrate.loop.run import (
     FACTORISATIONS,
     KNOWN,
     REACHED,
+    REJECTED,
     STEP,
     STEP_SIGNATURE,
     TIME,
     evaluate_at,
     run_at,
 )
-from nivel.integrate.rosenbrock.parts import LARGEST, step_in_parts
+from nivel.integrate.loop.step_control import evaluate_accepted
 from nivel.kernels.algebra.rows import advance, copy
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate
@@ -46,6 +47,60 @@ from nivel.motion import circuit_shift
 from nivel.motion.modal_shift import factorise_shifted_modes, solve_shifted_modes
 from nivel.native.entry import entry
 from nivel.native.function import leaf, part, shared, stage
+
+# A step of fixed length, whole or in parts: where the whole one cannot be trusted, as where a valve opens onto a small volume, it is made
+# in parts, halved until each can be, down to 1/PARTS of it. After a good part the next one is twice as long where it fits.
+#
+# Steps that were divided are counted in counter[REJECTED], parts that could not be trusted at the least length in `Circuit.guard`.
+
+# A step has at most this many parts.
+PARTS = 16
+# Pressures [Pa] of a step and of two half ones may differ by this much.
+LARGEST = 2e5
+
+
+@shared
+def step_in_parts(evaluate, machine, history, attempt, first):
+    """One step. Returns a status.
+
+    attempt : compiled into this one; (evaluate, machine, history) makes a step of clock[STEP] from y, last evaluated, into `trial`, and
+    returns a status and by how much pressures [Pa] of one step and of two half ones differ, infinite where it cannot be trusted at all.
+    first : row of run.stages that keeps the rate at the begin of the step.
+    """
+    run = run_at(history)
+    clock, y = run.clock, run.y
+    begin, end, h = clock[TIME], clock[REACHED], clock[STEP]
+    kept, guard = run.stages[first], record_at(machine).circuit.guard
+    done, size, status = 0, PARTS, OK
+    while status == OK and done < PARTS:
+        status, difference = attempt(evaluate, machine, history)
+        if difference <= LARGEST or size == 1:
+            if status == OK:
+                copy(run.trial, y)
+            if not difference <= LARGEST:
+                guard[0] += 1.0
+            if difference < np.inf:
+                guard[1] = max(guard[1], difference)
+            done += size
+            if done % (2 * size) == 0 and done + 2 * size <= PARTS:
+                size *= 2
+        else:
+            if size == PARTS:
+                run.counter[REJECTED] += 1
+                copy(run.rate, kept)
+            size //= 2
+            status = OK
+            run.counter[KNOWN] = 0
+        if status == OK and done < PARTS:
+            clock[TIME] = begin + done * (h / PARTS)
+            clock[STEP] = size * (h / PARTS)
+            clock[REACHED] = end if done + size == PARTS else clock[TIME] + clock[STEP]
+            status = evaluate_accepted(evaluate, machine, history)
+    if clock[STEP] != h:
+        clock[TIME], clock[REACHED], clock[STEP] = begin, end, h
+        copy(kept, run.rate)
+    return status
+
 
 # rows of run.stages: rates inside the step, Y₁, Y₂, the rate at the begin
 RATE, WHOLE, HALVES, BEGIN = 0, 1, 2, 3

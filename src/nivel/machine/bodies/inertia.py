@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import BeforeValidator, ValidationInfo
 
 from nivel.known import Body
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.bodies.solids import centroid, squared_gyration, volume
 from nivel.machine.core.record import Record
 from nivel.machine.core.vectors import Array
@@ -93,8 +93,7 @@ InertiaTensor = Annotated[
 ]
 
 
-@dataclass(frozen=True)
-class MassProperties:
+class MassProperties(Struct):
     """mass [kg]; centre_of_mass (3,) [m] in the body frame; inertia (3, 3) [kg m²] about the centre of mass, body
     axes.
     """

@@ -8,9 +8,8 @@ import numpy as np
 from nivel.elements.forces import FORCES
 from nivel.elements.joints import JOINTS
 from nivel.known import MachineRecord, PointForce
-from nivel.machine.core.element import Between, BetweenMany
+from nivel.machine.core.element import Between, BetweenMany, Marker
 from nivel.machine.core.index import Index, Place, as_list, elements
-from nivel.machine.core.marker import Marker
 from nivel.machine.core.record import Problem, entry
 
 Faults = Iterator[tuple[Place, str]]

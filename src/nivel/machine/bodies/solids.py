@@ -5,8 +5,19 @@ from functools import lru_cache
 import numpy as np
 
 from nivel.lazy import scipy
-from nivel.machine.bodies.polygon import section
-from nivel.machine.bodies.shape import Box, Capsule, Cylinder, Ellipsoid, Extrusion, Long, Mesh, Shape, Sphere, Tube
+from nivel.machine.bodies.shape import (
+    Box,
+    Capsule,
+    Cylinder,
+    Ellipsoid,
+    Extrusion,
+    Long,
+    Mesh,
+    Shape,
+    Sphere,
+    Tube,
+    section,
+)
 from nivel.machine.bodies.surface import Enclosed, Triangles, enclosed, surface_arrays, welded, why_open
 from nivel.machine.core.orientation import rotation_matrix
 from nivel.machine.core.vectors import Array

@@ -14,7 +14,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.vectors import Array, Triangles
 
 HEAD: Final = struct.Struct("<II")  # numbers of vertices and of triangles
@@ -52,8 +52,7 @@ def surface_arrays(text: str) -> tuple[Array, Triangles]:
     return vertices.astype(np.float64), triangles.astype(np.uint32)
 
 
-@dataclass(frozen=True)
-class Enclosed:
+class Enclosed(Struct):
     """volume [m³], centre (3,) [m], and ∫ (|r|² 1 - r rᵀ) dV about the centre (3, 3) [m⁵] of what a surface encloses."""
 
     volume: float

@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 
 from nivel.known import Body, Marker, Shape
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.core.vectors import Array
 
@@ -14,8 +14,7 @@ ROUND: Final = ("sphere", "capsule", "ellipsoid")  # that touch everything at th
 SHAPES_ON_PLANE: Final = (*ROUND, *HULLS)
 
 
-@dataclass(frozen=True)
-class Touching:
+class Touching(Struct):
     """name : of the body or marker whose `shape` touches. body : on which it is. position (3,) [m], axes (3, 3) : of the frame of the
     shape in that of the body."""
 

@@ -3,7 +3,7 @@
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.control.block import Block
 from nivel.machine.control.part import Part, PartFunction, signals_read
 from nivel.machine.core.index import Index
@@ -13,8 +13,7 @@ from nivel.machine.units.arithmetic import RESERVED
 from nivel.machine.units.unit import UNITS
 
 
-@dataclass(frozen=True)
-class PartOf:
+class PartOf(Struct):
     """A part of a block."""
 
     block: Block

@@ -2,14 +2,13 @@
 
 from typing import Literal
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.laws.time_function import TimeFunction, signals_of
 from nivel.machine.units.formula import Formula, LinearFunction, formula
 from nivel.machine.units.tree import TIME
 
 
-@dataclass(frozen=True)
-class UnitFacts:
+class UnitFacts(Struct):
     """A unit as a block uses it: name of the block, file of the unit, and its variables that are inputs and outputs.
 
     own_process, time_limit : whether it runs in a process of its own, and how long [s] a call may take there.
@@ -23,14 +22,12 @@ class UnitFacts:
     time_limit: float
 
 
-@dataclass(frozen=True)
 class FmuFacts(UnitFacts):
     """An FMU, with values of its parameters."""
 
     parameters: tuple[tuple[str, float], ...] = ()
 
 
-@dataclass(frozen=True)
 class CFacts(UnitFacts):
     """A C function, with its name and the start of its state."""
 
@@ -38,8 +35,7 @@ class CFacts(UnitFacts):
     state: tuple[float, ...] = ()
 
 
-@dataclass(frozen=True)
-class UnitOutput:
+class UnitOutput(Struct):
     """The value of one output of a unit after a sample. inputs : paths of the signals that it is called with."""
 
     facts: UnitFacts
@@ -65,8 +61,7 @@ def signals_read(function: PartFunction) -> tuple[str, ...]:
     return function.signals if isinstance(function, LinearFunction | Formula | UnitOutput) else signals_of(function)
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(Struct):
     """One number of a block; its symbol is `BLOCK.name`, and `value` is what the block puts out.
 
     role : "signal", a function of the present; "state", whose rate the function is; "sample", which the function gives at each sample

@@ -17,10 +17,9 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, core_schema
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.given import ManyNumbers, OneNumber
 from nivel.machine.laws.time_function import OneFunction, TimeFunction, Varying, written
-from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.quantity import (
     UNREAD,
     Quantity,
@@ -33,6 +32,7 @@ from nivel.machine.units.quantity import (
     told,
     unread,
 )
+from nivel.machine.units.unit import KINDS
 from nivel.machine.uses.coordinate_reference import kind_of
 from nivel.words.arguments import plain
 
@@ -90,8 +90,7 @@ def kind_for(reference: object, kinds: tuple[str, str]) -> str | tuple[str, str]
     return kinds if kind is None else kinds[0] if kind == "length" else kinds[1]
 
 
-@dataclass(frozen=True)
-class OfCoordinate:
+class OfCoordinate(Struct):
     """Annotation of a float field of a record with a `coordinate`: a quantity of the first of `kinds` for a length, of
     the second for an angle.
     """
@@ -202,8 +201,7 @@ CoordinateRate = Annotated[OneNumber, OfCoordinate(COORDINATE_RATE)]
 NotNegativeRate = Annotated[OneNumber, OfCoordinate(COORDINATE_RATE, "not negative")]
 
 
-@dataclass(frozen=True)
-class OfCoordinateFunction:
+class OfCoordinateFunction(Struct):
     """Annotation of a field that is a TimeFunction, of the first of `kinds` for a length, of the second for an angle.
 
     What is known of the coordinate stands in the fields before this one: `coordinate`, or `along` or `about` an axis.

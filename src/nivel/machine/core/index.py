@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.record import GROUND, entry
 
 Place = tuple[str | int, ...]
@@ -40,8 +40,7 @@ def as_mapping(value: Any) -> Mapping[str, Any]:
     return value if isinstance(value, Mapping) else {}
 
 
-@dataclass(frozen=True, eq=False)
-class Index:
+class Index(Struct, eq=False):
     """What the elements of a machine are, by name.
 
     bodies : type of the shape ("" without one), also of the stations of beams. touching : the same of bodies and of markers with a

@@ -6,7 +6,7 @@ They are found by what they are, in the fields of its parts and of the parts of 
 from collections.abc import Iterator
 
 from nivel.known import Block, Driver, State
-from nivel.lazy import dataclass, nivel
+from nivel.lazy import Struct, nivel
 from nivel.machine.core.record import Record
 from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.varying_value import Expression, Table
@@ -14,16 +14,14 @@ from nivel.machine.laws.varying_value import Expression, Table
 AXES = "xyz"
 
 
-@dataclass(frozen=True)
-class Sampling:
+class Sampling(Struct):
     """When a function is looked at: every `period` [s] from `offset` [s] on; a period of zero: at events only."""
 
     period: float
     offset: float = 0.0
 
 
-@dataclass(frozen=True)
-class MachineFunction:
+class MachineFunction(Struct):
     """A function of one part of a machine.
 
     name : as users know it, `push.vector.x`. section : of the machine, `forces`. part : name of the part. motion : it drives, and has

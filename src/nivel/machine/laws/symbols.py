@@ -13,7 +13,7 @@ from nivel.elements.circuits import record_of
 from nivel.elements.control import BLOCKS
 from nivel.elements.forces import FORCES
 from nivel.elements.joints import drawn
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.core.index import Index, Place
 from nivel.machine.core.record import entry
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table
@@ -33,8 +33,7 @@ SENSOR_QUANTITIES: Final = {"distance": ("distance", "rate"), "angle": ("angle",
 VARYING_KEYS: Final = ("vector", "law", "magnitude", "effort", "speed", "target", "value", "when", "rate", "update")
 
 
-@dataclass(frozen=True)
-class Symbol:
+class Symbol(Struct):
     """`quantity` of the element `name` of a `section`."""
 
     section: Section

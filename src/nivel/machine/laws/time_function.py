@@ -10,7 +10,7 @@ from typing import Annotated, Any, Final
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.given import Given, Validated
 from nivel.machine.laws.python_law import PythonLaw, read_python_law
 from nivel.machine.laws.varying_value import Expression, Table, read_table
@@ -160,8 +160,7 @@ def written(value: TimeFunction) -> float | str | dict[str, Any]:
     return value
 
 
-@dataclass(frozen=True)
-class Varying:
+class Varying(Struct):
     """Annotation of a field that is a TimeFunction of a quantity of `kind`; see `varying`."""
 
     kind: quantity.Kind

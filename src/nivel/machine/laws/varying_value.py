@@ -13,7 +13,6 @@ from pydantic_core import InitErrorDetails
 from nivel.machine.core.record import unknown_word
 from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, evaluate, render
 from nivel.machine.units.derivative import derivative
-from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.functions import (
     FEWEST,
     INTERPOLATIONS,
@@ -37,6 +36,7 @@ from nivel.machine.units.quantity import (
     unread,
 )
 from nivel.machine.units.tree import TIME, Node, Parameters, signals
+from nivel.machine.units.unit import KINDS
 from nivel.words.arguments import checked_arguments, checked_fields
 from nivel.words.wording import in_expressions
 

@@ -7,7 +7,7 @@ from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
 from nivel.errors import retold
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.core.record import Record
 from nivel.machine.given import Given, OneNumber
 from nivel.machine.units.quantity import Quantity, Whole, fault, shown
@@ -23,8 +23,7 @@ def settings_of(record: type[Settings], analysis: str, given: Mapping[str, Any])
         return record(**{name: value for name, value in given.items() if value is not None})
 
 
-@dataclass(frozen=True)
-class Between:
+class Between(Struct):
     """Annotation of a number, or a whole one, from `low` to `high`, as messages write these. Texts are read as numbers."""
 
     low: str

@@ -5,15 +5,15 @@ from typing import Annotated, Any, ClassVar, Final
 
 from pydantic import BeforeValidator, ValidationInfo, WithJsonSchema
 
-from nivel.machine.core.marker import TwoMarkers
+from nivel.machine.core.element import TwoMarkers
 from nivel.machine.core.orientation import AxisSequence
 from nivel.machine.core.record import Checked, Name, Problem, superfluous, unknown_word
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.time_function import Measured
-from nivel.machine.units.dimension import without_angle
 from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import ANY, constant_tree, fault, listed, parameters_of, read_quantity, shown, told
 from nivel.machine.units.tree import ExpressionError, Parameters
+from nivel.machine.units.unit import without_angle
 from nivel.machine.uses.coordinate_reference import CoordinateReference
 
 

@@ -5,10 +5,10 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, WithJsonSchema
 
-from nivel.machine.units.dimension import Dimension, described, without_angle
 from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import ANY, constant_tree, expression_fault, read_quantity
 from nivel.machine.units.tree import ExpressionError
+from nivel.machine.units.unit import Dimension, described, without_angle
 from nivel.words.arguments import plain
 
 

@@ -9,7 +9,7 @@ expression itself is: 3*time^2 becomes 6*time, without a division by time.
 from collections.abc import Mapping
 from typing import Final
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.units import tree
 from nivel.machine.units.arithmetic import evaluate
 from nivel.machine.units.functions import FUNCTIONS, SMOOTH, read
@@ -32,8 +32,7 @@ def derivative(node: tree.Node, path: str | None = None) -> tree.Node:
     return result
 
 
-@dataclass(frozen=True)
-class _Derivative:
+class _Derivative(Struct):
     """The rules with respect to time (None) or to a signal."""
 
     path: str | None

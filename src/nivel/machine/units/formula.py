@@ -3,14 +3,13 @@ signals and of the time need no compiler."""
 
 from collections.abc import Sequence
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.units.arithmetic import bind, evaluate
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.tree import TIME, Negative, Node, Number, Operation, Signal, Time, signals, varies
 
 
-@dataclass(frozen=True)
-class Formula:
+class Formula(Struct):
     """A value that follows from symbols and the time. tree : without unbound names."""
 
     tree: Node
@@ -33,8 +32,7 @@ def sum_of(terms: Sequence[Node]) -> Node:
     return Operation("+", sum_of(terms[:half]), sum_of(terms[half:])) if half else terms[0]
 
 
-@dataclass(frozen=True)
-class LinearFunction:
+class LinearFunction(Struct):
     """offset + Σ factor · signal, with signals by their paths or `time`."""
 
     terms: tuple[tuple[float, str], ...]

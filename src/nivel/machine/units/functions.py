@@ -14,7 +14,7 @@ from typing import Final, Literal, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import dataclass, scipy
+from nivel.lazy import Struct, scipy
 from nivel.machine.units import tree
 from nivel.machine.units.grammar import parse
 
@@ -151,8 +151,7 @@ def _ends_decide(counts: Callable[..., bool], *arguments: tree.Node) -> Iterator
         yield from ((arguments[0], arguments[k]) for k in (1, 3))
 
 
-@dataclass(frozen=True)
-class FunctionKind:
+class FunctionKind(Struct):
     """What is known of one function of expressions. Texts are expressions of its arguments.
 
     arguments : their names. more : further arguments may follow, of which the value is that of the first two, and so on

@@ -12,12 +12,11 @@ from typing import Final
 
 from nivel.machine.units import tree
 from nivel.machine.units.arithmetic import FREE_CONSTANTS, evaluate
-from nivel.machine.units.dimension import Dimension, described, dimension, known, power, symbol, without_angle
-from nivel.machine.units.dimension import product as product_of
 from nivel.machine.units.functions import FUNCTIONS
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.tree import CONSTANTS, ExpressionError, Name, Number, Parameters, leaves
-from nivel.machine.units.unit import UNITS
+from nivel.machine.units.unit import UNITS, Dimension, described, dimension, known, power, symbol, without_angle
+from nivel.machine.units.unit import product as product_of
 from nivel.words.wording import listed
 
 _RADIAN: Final = dimension(rad=1)

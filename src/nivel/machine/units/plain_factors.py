@@ -15,14 +15,13 @@ from typing import Final
 
 import numpy as np
 
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, dataclass, field
 from nivel.machine.units import tree
 from nivel.machine.units.arithmetic import bind, evaluate
-from nivel.machine.units.dimension import BASES, KINDS, NONE, Dimension, powered, without_angle
 from nivel.machine.units.functions import FUNCTIONS
 from nivel.machine.units.grammar import parse, placed_tokens
 from nivel.machine.units.measure import Reading, readings
-from nivel.machine.units.unit import UNITS
+from nivel.machine.units.unit import BASES, KINDS, NONE, UNITS, Dimension, powered, without_angle
 
 MOST: Final = 3  # factors that are completed at once
 LARGEST_EXPONENT: Final = 1e3
@@ -37,8 +36,7 @@ Leaf = tuple[str, int] | str
 Accepts = Callable[[str, tree.Parameters], None]
 
 
-@dataclass(frozen=True)
-class Completed:
+class Completed(Struct):
     """What is right: `text` of the expression and `bodies` of functions that it calls, only those that change.
 
     lacking : for the expression (under "") and each of these functions the factors as they are written, with the units that they lack
@@ -112,8 +110,7 @@ def with_bodies(parameters: tree.Parameters, bodies: Mapping[str, str]) -> tree.
     return done
 
 
-@dataclass(frozen=True)
-class _Affine:
+class _Affine(Struct):
     """Exponents of the bases: those that are known, and multiples of those of factors."""
 
     known: Dimension

@@ -16,15 +16,15 @@ from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError, core_schema
 
 from nivel.errors import Fault, ModelError
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.given import OneNumber, ThreeNumbers
 from nivel.machine.units import tree
 from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, PLACE, bind, evaluate, given
-from nivel.machine.units.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.measure import Reading, measure, refuse_unlike_terms, shared_names_hint
 from nivel.machine.units.plain_factors import completed, with_bodies
 from nivel.machine.units.slips import in_kelvin, is_time_meant, slip
+from nivel.machine.units.unit import KINDS, Dimension, counts_turns, described, is_angular, without_angle
 from nivel.words.arguments import plain
 from nivel.words.wording import shown
 
@@ -116,8 +116,7 @@ def _clash(its: Dimension | None, wanted: Dimension) -> Literal["", "other", "tu
     return "turns" if is_angular(wanted) and counts_turns(its) else ""
 
 
-@dataclass(frozen=True)
-class FunctionFault:
+class FunctionFault(Struct):
     """What is wrong with the function that is written as `head`, in the words of a message, and its text as it would be right."""
 
     head: str
@@ -267,8 +266,7 @@ def _is_plain_volume(value: object, parameters: tree.Parameters) -> bool:
     return its == KINDS["volume"][2] and abs(size - float(f"{size:.4g}")) <= 1e-9 * abs(size)
 
 
-@dataclass(frozen=True)
-class Quantity:
+class Quantity(Struct):
     """Annotation of a float field: it is a quantity of `kind`, and possibly bounded below by zero."""
 
     kind: Kind

@@ -7,9 +7,8 @@ import operator
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Final, Literal, SupportsFloat
 
-from nivel.lazy import dataclass, field, replace
-from nivel.machine.units.dimension import Dimension
-from nivel.machine.units.unit import UNITS
+from nivel.lazy import Struct, field, replace
+from nivel.machine.units.unit import UNITS, Dimension
 
 NOT_FINITE: Final = ("nan", "inf", "infinity")
 CONSTANTS: Final = {"pi": math.pi, "e": math.e}
@@ -41,28 +40,24 @@ class FaultyParameterError(Exception):
     """The text uses a parameter that is itself at fault, which has been reported already."""
 
 
-@dataclass(frozen=True)
-class Number:
+class Number(Struct):
     """`value` in SI units of `dimension`; without one, a bare number."""
 
     value: float
     dimension: Dimension | None = None
 
 
-@dataclass(frozen=True)
-class Time:
+class Time(Struct):
     """The time of the simulation in seconds."""
 
 
-@dataclass(frozen=True)
-class Signal:
+class Signal(Struct):
     """Something that the machine does: `hinge.angle`, or a local symbol such as `length` in the law of a spring."""
 
     path: str
 
 
-@dataclass(frozen=True)
-class Name:
+class Name(Struct):
     """A parameter, constant, unit or local symbol that is not bound yet.
 
     place : `unit` directly behind a number, where a unit stands although a parameter may have its name (`2 m`, `2 N/m`);
@@ -73,13 +68,11 @@ class Name:
     place: Literal["free", "unit", "product"] = "free"
 
 
-@dataclass(frozen=True)
-class Negative:
+class Negative(Struct):
     operand: Node
 
 
-@dataclass(frozen=True)
-class Operation:
+class Operation(Struct):
     """`symbol` is one of + - * / **, of < <= > >=, or `and`, `or`."""
 
     symbol: str
@@ -87,16 +80,14 @@ class Operation:
     right: Node
 
 
-@dataclass(frozen=True)
-class Call:
+class Call(Struct):
     """A function of FUNCTIONS; until it is bound, of any name."""
 
     function: str
     arguments: tuple[Node, ...]
 
 
-@dataclass(frozen=True)
-class Lookup:
+class Lookup(Struct):
     """The curve of a `kind` of INTERPOLATIONS through `values` at `points`, which increase; or its derivative of an `order`."""
 
     argument: Node
@@ -106,8 +97,7 @@ class Lookup:
     order: int = 0
 
 
-@dataclass(frozen=True)
-class Function:
+class Function(Struct):
     """A named function: a bound `body` in which the `arguments` stand as signals of their names.
 
     head, text : as it is written, of an expression: ``bump(x)``, ``5 cm*sin(x)``

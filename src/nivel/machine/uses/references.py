@@ -9,8 +9,8 @@ from nivel.known import MachineRecord
 from nivel.lazy import nivel
 from nivel.machine.bodies.point_masses import point_mass_faults
 from nivel.machine.bodies.touching import HULLS, ROUND, SHAPES_ON_PLANE
+from nivel.machine.core.element import Marker
 from nivel.machine.core.index import SECTIONS, Index, as_list, elements
-from nivel.machine.core.marker import Marker
 from nivel.machine.core.record import GROUND, Place, Problem, Record, entry, unknown_word
 from nivel.machine.laws.symbols import UnknownSymbolError, find_in, outputs_of, paths_in, states_of, symbol_faults
 from nivel.machine.units.tree import Parameters

@@ -6,15 +6,14 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.system.elimination.factor_plan import minimum_degree
 
 Index = NDArray[np.uint32]
 Groups = tuple[tuple[int, ...], ...]
 
 
-@dataclass(frozen=True)
-class Elimination:
+class Elimination(Struct):
     """Index arrays of `nivel.kernels.record.record.Saddle`, see there."""
 
     order: Index

@@ -14,15 +14,14 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from nivel.kernels.algebra.sparse_lu import SparseLU
 from nivel.kernels.record.record import NONE
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.system.tables import index_array
 
 Index = NDArray[np.uint32]
 Places = NDArray[np.int64]
 
 
-@dataclass(frozen=True)
-class FactorPlan:
+class FactorPlan(Struct):
     """Pattern of a matrix A (N, N) and the tables of its factors."""
 
     row_start: Index  # (N+1,) first entry of each row of A, in the numbering of the unknowns
@@ -168,8 +167,7 @@ def _blocks(order: Sequence[int], beside: Sequence[set[int]]) -> list[list[int]]
     return blocks
 
 
-@dataclass(frozen=True)
-class _Layout:
+class _Layout(Struct):
     """Where the panels of the blocks stand; *place* is the number of an unknown in the order."""
 
     count: int  # unknowns
@@ -293,8 +291,7 @@ def _index(values: ArrayLike) -> Index:
 # evaluations does not grow with a chain.
 
 
-@dataclass(frozen=True)
-class TangentPlan:
+class TangentPlan(Struct):
     """The factors of the matrix, those of the stages of a step as one system where they were asked for, and `group`, `group_start`,
     `entry_start`, `entry` of `nivel.kernels.record.implicit_record.Newton`."""
 

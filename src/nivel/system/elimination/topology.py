@@ -16,7 +16,7 @@ import numpy as np
 
 from nivel.elements.joints import JOINTS
 from nivel.kernels.record.record import NONE, Constraints, Tree
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.system.tables import zeros
 
 FREE: Final = -1
@@ -27,8 +27,7 @@ def carries(kind: str) -> bool:
     return JOINTS[kind].tree is not None and not JOINTS[kind].rail
 
 
-@dataclass(frozen=True)
-class Edge:
+class Edge(Struct):
     """A joint between two bodies, by their numbers; the ground is the body after the last. rail : the nodes of a beam along which the first
     body may slide, where it may be carried by them."""
 
@@ -39,8 +38,7 @@ class Edge:
     rail: tuple[int, ...] = ()
 
 
-@dataclass(frozen=True)
-class Branch:
+class Branch(Struct):
     """How a body hangs in the tree: on `parent` by joint number `joint`, or FREE of it. turned : its joint's first body is the child. A
     slider hangs on nodes of its beam, and has the ground for its parent."""
 
@@ -50,8 +48,7 @@ class Branch:
     turned: bool
 
 
-@dataclass(frozen=True)
-class SpanningTree:
+class SpanningTree(Struct):
     """Branches from the ground outwards, every parent before its children; numbers of the joints that stay constraints."""
 
     branches: tuple[Branch, ...]

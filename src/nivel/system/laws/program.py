@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from nivel.kernels.record import program as kernel
 from nivel.kernels.record.function import NEAR
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.machine.laws.varying_value import Expression
 from nivel.machine.units.formula import Formula
 from nivel.machine.units.functions import FUNCTIONS, PERIODIC, differentiated, is_truth, pieces
@@ -47,8 +47,7 @@ def expression_program(
     return program.row()
 
 
-@dataclass(frozen=True)
-class PlacedProgram:
+class PlacedProgram(Struct):
     """The row of a program with places for its arguments, and what these are: the time first, then signals by their paths."""
 
     row: NDArray[np.float64]
@@ -76,8 +75,7 @@ def _in_period(argument: Node, points: Sequence[float]) -> Node:
     return Operation("-", argument, Operation("*", period, whole))
 
 
-@dataclass(frozen=True)
-class Switching:
+class Switching(Struct):
     """A program with switches. Behind it are expected its arguments, then the side that each switch keeps.
 
     switches : places of the side of each, and of its difference.

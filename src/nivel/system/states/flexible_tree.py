@@ -12,7 +12,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from nivel.kernels.record.record import NONE, Record
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.system.elimination.topology import FREE
@@ -24,8 +24,7 @@ from nivel.system.states.tree_nodes import joint_node, placed, velocities_in
 from nivel.system.system import Array, System
 
 
-@dataclass(frozen=True)
-class _Expanded:
+class _Expanded(Struct):
     """Nodes of the tree with those between the frames of flexible bodies; flexible body of each modal node, frame of each outward one
     (0 elsewhere); the frame that carries each flexible body, or NONE; extra frames, each on a body that hangs on nothing, or on a marker
     that its modes do not move: these markers, and the frames that they are on."""

@@ -10,7 +10,7 @@ import numpy as np
 from nivel.elements.joints.kind import Seen, TreeJoint
 from nivel.elements.joints.on_beams import between, element_of
 from nivel.kernels.record.record import NONE, Coordinates, Markers
-from nivel.lazy import dataclass, scipy
+from nivel.lazy import Struct, scipy
 from nivel.machine.core import orientation
 from nivel.machine.core.vectors import cross
 from nivel.machine.machine_record import MachineRecord
@@ -24,8 +24,7 @@ MOST = 50  # iterations
 CLOSE = 1e-14  # of the length of the beam
 
 
-@dataclass(frozen=True)
-class Rail:
+class Rail(Struct):
     """The nodes of a beam: places along the unstressed line (N,) [m], positions (N, 3), axes of the sections (N, 3, 3), velocities and
     angular velocities (N, 3), in global axes. near : where the slider is, about [m]."""
 
@@ -100,8 +99,7 @@ def _nearest(rail: Rail, p: Array) -> tuple[float, int]:
     return sigma, element_of(rail.station, sigma)
 
 
-@dataclass(frozen=True)
-class Node:
+class Node(Struct):
     """One node of the tree: bodies, joint (or FREE), the markers of the joint on them (NONE: their frames), and where its positions and
     velocities stand in the state. modes : of a node of a flexible body. along : of a slider on a beam, its place among the coordinates."""
 
@@ -117,8 +115,7 @@ class Node:
     along: int = -1
 
 
-@dataclass(frozen=True)
-class Bent:
+class Bent(Struct):
     """What lies between the frames of a flexible body: its modal coordinates where the node has any, and how it turns the child, as Euler
     parameters."""
 
@@ -126,8 +123,7 @@ class Bent:
     turn: Array
 
 
-@dataclass(frozen=True)
-class Frames:
+class Frames(Struct):
     """The frames that the bodies (then the ground, then frames at interfaces) have in these coordinates: axes (·, 3, 3) and origins (·, 3)
     in their own."""
 
@@ -149,8 +145,7 @@ def carried_frames(markers: Markers, nodes: list[Node], count: int) -> Frames:
     return Frames(axes, origin)
 
 
-@dataclass(frozen=True)
-class JointStart:
+class JointStart(Struct):
     """State (q, v) in joint coordinates; number, first, theta and own_theta as in `nivel.kernels.record.record.Tree`. turned : Euler
     parameters of
     the frames of all bodies and interfaces in these coordinates."""
@@ -164,8 +159,7 @@ class JointStart:
     turned: Array
 
 
-@dataclass(frozen=True)
-class Poses:
+class Poses(Struct):
     """Poses and velocities of all bodies, then the ground, then frames at interfaces; global axes. theta : of the bodies."""
 
     R: Array

@@ -13,7 +13,7 @@ from nivel.kernels.record import record as kernels
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE, U1, U2, Coordinates, Record
 from nivel.kernels.tree.joints import BY_ADDRESS
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.elimination.topology import FREE, Branch
 from nivel.system.states.joint_start import Node
@@ -118,8 +118,7 @@ def _along(old: Record, slider: int) -> int:
 BACKWARDS: Final = {CROSS_FIRST: CROSS_SECOND, CROSS_SECOND: CROSS_FIRST}
 
 
-@dataclass(frozen=True)
-class Turns:
+class Turns(Struct):
     """`counted` angles (coordinate, position in y), each being sign q + offset, as rows of `number`; `followed` are all others."""
 
     counted: U2

@@ -12,10 +12,10 @@ from nivel.judge.after.subject import Run
 from nivel.known import Contact
 from nivel.lazy import Struct, replace
 from nivel.machine.core.vectors import Array
-from nivel.machine.units.dimension import KINDS
 from nivel.machine.units.measure import measure
 from nivel.machine.units.quantity import ANY, constant_tree, read_quantity
 from nivel.machine.units.tree import ExpressionError
+from nivel.machine.units.unit import KINDS
 from nivel.results.estimate import Estimate, distances
 from nivel.results.motion import common_frames
 from nivel.results.scales import Readable

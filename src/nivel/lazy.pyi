@@ -147,6 +147,7 @@ import nivel.flexible.body.vtk
 import nivel.flexible.foreign
 import nivel.flexible.foreign.source
 import nivel.flexible.model
+import nivel.flexible.model.model
 import nivel.flexible.model.model_file
 import nivel.flexible.model.solid_source
 import nivel.flexible.reduce
@@ -223,6 +224,7 @@ import nivel.results.frames.csv_table
 import nivel.results.frames.loads
 import nivel.results.frames.summary
 import nivel.results.frames.tabulated
+import nivel.results.load_cases
 import nivel.results.plots
 import nivel.results.result
 import nivel.results.scales

@@ -15,6 +15,7 @@ from needing import needs
 from nivel.errors import ModelError
 from nivel.flexible.body.recovery import (
     BLOCK,
+    Cycle,
     counted,
     displacement,
     envelope,
@@ -29,6 +30,7 @@ from nivel.flexible.body.recovery import (
     von_mises,
 )
 from nivel.flexible.body.vtk import write_modes, write_motion
+from nivel.results.frames.loads import FatigueCurve
 
 L, B, H, E = 2.0, 0.02, 0.03, 210e9
 
@@ -210,3 +212,35 @@ def test_vtk_files_are_read_by_another_program(tmp_path):
 def test_vtk_name_must_be_that_of_a_collection(cantilever, tmp_path):
     with pytest.raises(ModelError, match=r"\.pvd"):
         write_modes(cantilever, tmp_path / "modes.vtk")
+
+
+BASQUIN = {"strength": "100 MPa", "knee": 2e6, "slope": 5, "slope_below": 9}
+
+
+def test_damage_of_blocks_is_that_of_miner():
+    """Σ n/N: 2 whole cycles of 200 MPa, one half of 100 MPa that the knee is at, 3 of 50 MPa below it; N = knee (strength/S)^slope."""
+    cycles = [Cycle(400e6, 0.0, 2.0), Cycle(200e6, 0.0, 0.5), Cycle(100e6, 0.0, 3.0)]
+    found = FatigueCurve.of(BASQUIN, "Pa").damages(cycles)
+    np.testing.assert_allclose(found, [2 * 2**5 / 2e6, 0.5 / 2e6, 3 * 0.5**9 / 2e6], rtol=1e-14)
+    endless = {name: BASQUIN[name] for name in ("strength", "knee", "slope")}
+    np.testing.assert_allclose(FatigueCurve.of(endless, "Pa").damages(cycles), [*found[:2], 0.0], rtol=1e-14)
+
+
+def test_means_count_as_goodman_has_them():
+    """S/(1 - mean/R); a compressive mean changes nothing, and one of the tensile strength breaks at once."""
+    curve = FatigueCurve.of({**BASQUIN, "ultimate": "400 MPa"}, "Pa")
+    found = curve.damages([Cycle(200e6, 200e6, 1.0), Cycle(200e6, -200e6, 1.0), Cycle(200e6, 400e6, 1.0)])
+    np.testing.assert_allclose(found, [2**5 / 2e6, 1 / 2e6, np.inf], rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("given", "names"),
+    [
+        ({"strength": "3 MPa", "slop": 5}, ("`knee` is missing", "fatigue.slop")),
+        ({"strength": "3 kg", "knee": -1, "slope": 5}, ("fatigue.strength", "fatigue.knee")),
+    ],
+)
+def test_faults_of_fatigue_curves_are_told_at_once(given, names):
+    with pytest.raises(ModelError) as caught:
+        FatigueCurve.of(given, "Pa")
+    assert all(name in str(caught.value) for name in names)

@@ -47,6 +47,13 @@ def test_cycles_of_a_cosine(wheel):
     assert float(wheel.cycles("m.position.x")["count"].sum()) == 2.0
 
 
+def test_damage_of_a_cosine(wheel):
+    """Two whole cycles of the amplitude 1 m by N = 100 (0.5 m/S)³."""
+    found = wheel.cycles("m.position.x", repeating=True, fatigue={"strength": "500 mm", "knee": 100, "slope": 3})
+    assert found.attrs["damage"] == pytest.approx(2 * 2**3 / 100, rel=1e-11)
+    assert float(found["damage"].sum()) == found.attrs["damage"]
+
+
 def test_the_published_example_is_counted():
     times = tuple(float(k) for k in range(len(HISTORY)))
     body = nivel.Body(name="m", mass=1.0, inertia=(1, 1, 1))

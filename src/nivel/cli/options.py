@@ -35,6 +35,13 @@ def assignments(form: str, empty: bool = False) -> Any:
     return read
 
 
+def fatigue_option(command: Any) -> Any:
+    """Numbers of an S–N curve."""
+    names, form = "strength, knee, slope, slope_below, ultimate", "NAME=VALUE"
+    meaning = f"A number of the S-N curve by which cycles do damage: {names}. May be repeated."
+    return click.option("--fatigue", multiple=True, metavar=form, callback=assignments(form), help=meaning)(command)
+
+
 def set_option(of: str, example: str, more: str = "") -> Any:
     """Values of the file of a machine or study."""
     return click.option(

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from nivel.cli.options import file_argument, json_option, listed
+from nivel.cli.options import fatigue_option, file_argument, json_option, listed
 from nivel.cli.progress import COLOURS
 from nivel.errors import Fault, ModelError
 from nivel.known import Result
@@ -58,6 +58,7 @@ def _print_trust(result: Result) -> None:
 @click.command()
 @file_argument("result")
 @listed("--cycles", "signals", "NAMES", "Count rainflow cycles of signals, e.g. pin.force.x.")
+@fatigue_option
 @click.option("--repeating", is_flag=True, help="The history is periodic: count no half cycles.")
 @click.option(
     "--period",
@@ -65,15 +66,24 @@ def _print_trust(result: Result) -> None:
     help="Period of the machine, e.g. '0.5 s': also print the work in the last whole period.",
 )
 @json_option
-def loads(result: str, signals: tuple[str, ...] | None, repeating: bool, period: str | None, as_json: bool) -> None:
+def loads(
+    result: str,
+    signals: tuple[str, ...] | None,
+    fatigue: dict[str, str],
+    repeating: bool,
+    period: str | None,
+    as_json: bool,
+) -> None:
     """Print the loads of RESULT: peak and RMS reactions of every joint, and power and work of drivers and forces.
 
     With --cycles, also count the rainflow cycles of signals (ASTM E1049).
     """
-    if repeating and not signals:
-        raise ModelError(Fault.at("loads.repeating", "belongs to --cycles: name a signal, e.g. --cycles pin.force.x"))
+    for option, given in (("repeating", repeating), ("fatigue", fatigue)):
+        if given and not signals:
+            message = "belongs to --cycles: name a signal, e.g. --cycles pin.force.x"
+            raise ModelError(Fault.at(f"loads.{option}", message))
     opened = nivel.results.Result.open(result)
-    tables = _tables(opened, signals or (), repeating, period)
+    tables = _tables(opened, signals or (), repeating, period, fatigue or None)
     if as_json:
         plain = {name: _plain(table) for name, table in tables.items()}
         click.echo(json.dumps({**plain, "trust": {name: _trust(table) for name, table in tables.items()}}, indent=2))
@@ -82,7 +92,9 @@ def loads(result: str, signals: tuple[str, ...] | None, repeating: bool, period:
         _print(name, table)
 
 
-def _tables(result: Result, signals: tuple[str, ...], repeating: bool, period: str | None) -> dict[str, xarray.Dataset]:
+def _tables(
+    result: Result, signals: tuple[str, ...], repeating: bool, period: str | None, fatigue: dict[str, str] | None
+) -> dict[str, xarray.Dataset]:
     """Tables by their titles. Raises ModelError where there is nothing to show."""
     out: dict[str, xarray.Dataset] = {}
     if "joint_force" in result.variables and result.coordinates.get("joint"):
@@ -90,7 +102,7 @@ def _tables(result: Result, signals: tuple[str, ...], repeating: bool, period: s
     if period is not None or any(name.endswith(".power") for name in result.variables):
         out["power and work"] = result.powers(period=period)
     for name in signals:
-        out[f"cycles of {name}"] = result.cycles(name, repeating=repeating)
+        out[f"cycles of {name}"] = result.cycles(name, repeating=repeating, fatigue=fatigue)
     if not out:
         raise ModelError("the result has neither reactions of joints nor power of drivers or forces")
     return out
@@ -116,6 +128,8 @@ def _print(title: str, table: xarray.Dataset) -> None:
         shown.add_row(*labels[k : k + 1], *(f"{float(table[name].to_numpy()[k]):.6g}" for name in names))
     console = rich.console.Console(highlight=False, width=140)
     console.print(shown)
+    if "damage" in table.attrs:
+        console.print(rich.text.Text(f"damage: {table.attrs['damage']:.6g} (failure at 1)"), soft_wrap=True)
     console.print(
         rich.text.Text(f"trust: {nivel.results.trust.told(table.attrs['verdict'], table.attrs['headline'])}"),
         soft_wrap=True,

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from nivel.cli.options import FILE, file_argument, force_option, json_option, listed, quiet_option
+from nivel.cli.options import FILE, fatigue_option, file_argument, force_option, json_option, listed, quiet_option
 from nivel.cli.progress import console, progress_stage
 from nivel.errors import Fault, gathered, refuse
 from nivel.known import RecoveredBody
@@ -29,7 +29,14 @@ from nivel.lazy import nivel
     help="Write a table: one row per frame with --node, the states with --at, otherwise the largest stress of every station.",
 )
 @click.option("--rainflow", "cycles", type=FILE, help="Write the cycles at the nodes of --node as a table.")
+@fatigue_option
 @click.option("--plot", "picture", type=FILE, help="Draw the history at the nodes of --node (.png, .svg, .pdf).")
+@click.option(
+    "--load-case",
+    "loads",
+    type=FILE,
+    help="Write nodal forces that bend the body so, at --at or when it is stressed most: CalculiX, Abaqus (.inp) or Nastran (.bdf).",
+)
 @click.option("--vtk", type=FILE, help="Write the motion for ParaView (.pvd), or only the frames of --at.")
 @force_option
 @quiet_option
@@ -44,7 +51,9 @@ def command(
     strains: bool,
     table: Path | None,
     cycles: Path | None,
+    fatigue: dict[str, str],
     picture: Path | None,
+    loads: Path | None,
     vtk: Path | None,
     force: bool,
     quiet: bool,
@@ -54,7 +63,7 @@ def command(
 
     The run of RESULT may still be going on, or may have been killed. The body file must be the one of the run.
     """
-    _refuse_without_nodes(nodes, {"--rainflow": cycles, "--plot": picture, "--strain": strains})
+    _refuse_without_nodes(nodes, {"--rainflow": cycles, "--fatigue": fatigue, "--plot": picture, "--strain": strains})
     if strains and table is None:
         raise click.UsageError("--strain needs --csv: the table in which the strains stand")
     if picture is not None:
@@ -67,18 +76,20 @@ def command(
         wanted = _known_nodes(found, nodes or ())
         for moment in moments:
             found.frame(moment)
-        _refuse_to_replace((table, cycles, picture, vtk), force, [Path(result), found.file])
+        _refuse_to_replace((table, cycles, picture, loads, vtk), force, [Path(result), found.file])
         stage("looking for hot spots", 0.1)
-        told = nivel.results.stress.stress_facts(found, count=count, nodes=wanted, times=moments)
+        told = nivel.results.stress.stress_facts(found, count=count, nodes=wanted, times=moments, fatigue=fatigue)
         stage("writing", 0.6)
         _write(found, wanted, moments, strains=strains, table=table, cycles=cycles, picture=picture)
+        if loads is not None:
+            found.write_load_cases(loads, moments or None)
         if vtk is not None:
             found.write_vtk(vtk, moments or None, told=lambda text, share: stage(text, 0.6 + 0.4 * share))
     if as_json:
         click.echo(json.dumps(told, indent=2))
     if not quiet:
         _say(told, as_json)
-        for name, path in (("table", table), ("cycles", cycles), ("plot", picture), ("motion", vtk)):
+        for name, path in (("table", table), ("cycles", cycles), ("plot", picture), ("loads", loads), ("motion", vtk)):
             if path is not None:
                 click.echo(f"{name}: {path}", err=True)
 
@@ -114,7 +125,7 @@ def _known_nodes(found: RecoveredBody, words: tuple[str, ...]) -> list[int]:
 
 
 def _refuse_to_replace(targets: tuple[Path | None, ...], force: bool, sources: list[Path]) -> None:
-    for path, what in zip(targets, ("table", "table of cycles", "plot", "VTK file"), strict=True):
+    for path, what in zip(targets, ("table", "table of cycles", "plot", "load case", "VTK file"), strict=True):
         if path is not None:
             nivel.files.target.check_text_target(path, what, force=force, sources=sources)
 
@@ -168,4 +179,6 @@ def _lines(facts: dict[str, Any]) -> Iterator[str]:
         )
         for low, high, number in node["cycles"]:
             yield f"  {number:g} cycles of {low / 1e6:.4g} to {high / 1e6:.4g} MPa"
+        if "damage" in node:
+            yield f"  damage {node['damage']:.6g} (failure at 1)"
     yield f"trust: {nivel.results.trust.told(facts['trust']['verdict'], facts['trust']['headline'])}"

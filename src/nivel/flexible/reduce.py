@@ -65,16 +65,31 @@ def reduce_model(located: Located, *, stage: Stage | None = None) -> Reduction:
     record = located.record
     say("reading the model", 0.0)
     model, sets = source_model(located, lambda text, share: say(text, 0.3 * share))
-    model, attachments = with_interfaces(model, located, sets)
+    untied = model
+    model, attachments = with_interfaces(untied, located, sets)
     if record.reduction.mass == "lumped" and record.frame is None:
         model = model.changed(mass=lumped(model.mass))
     say("checking the model", 0.3)
     _check(model, located)
     body = FreeBody.of(model)
     try:
-        return _reduced(body, attachments, located, say)
+        found = _reduced(body, attachments, located, say)
     except NoStiffnessError as error:
         raise ModelError(_fault(located, checks.mechanism(body, error))) from None
+    if not record.recovery.loads:
+        return found
+    return replace(found, body=replace(found.body, loads=_loads(untied, found.body.modes)))
+
+
+def _loads(model: FiniteElementModel, modes: Array) -> Array:
+    """(n, 6, n_modes) K Φ at the nodes of the model, zero at those that were added to tie its surfaces."""
+    out, has = np.zeros_like(modes), model.freedoms >= 0
+    full = np.zeros((model.expansion.shape[0], modes.shape[2]))
+    full[model.freedoms[has]] = modes[: len(has)][has]
+    forces = np.zeros_like(full)
+    forces[model.independent] = model.stiffness @ full[model.independent]
+    out[: len(has)][has] = forces[model.freedoms[has]]
+    return out
 
 
 def _check(model: FiniteElementModel, located: Located) -> None:

@@ -317,9 +317,10 @@ class Result(Tabulated):
         [s] the work in the last whole one, and its mean power."""
         return nivel.results.frames.loads.powers(self, period)
 
-    def cycles(self, name: str, *, repeating: bool = False) -> xarray.Dataset:
-        """Rainflow cycles of a signal, e.g. `hinge.force.x`: range, mean and count. repeating : the history goes on as it began."""
-        return nivel.results.frames.loads.cycles(self, name, repeating=repeating)
+    def cycles(self, name: str, *, repeating: bool = False, fatigue: Mapping[str, Any] | None = None) -> xarray.Dataset:
+        """Rainflow cycles of a signal, e.g. `hinge.force.x`: range, mean and count. repeating : the history goes on as it began.
+        fatigue : `strength`, `knee`, `slope`, `slope_below` and `ultimate` of an S–N curve: then also the damage."""
+        return nivel.results.frames.loads.cycles(self, name, repeating=repeating, fatigue=fatigue)
 
     def shock_response_spectrum(
         self, name: str, frequencies: Sequence[float], *, damping: float = 0.05

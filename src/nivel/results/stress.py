@@ -154,6 +154,10 @@ class RecoveredBody:
         """
         return recovery.rainflow(self.signed_principal(node)[:, self.widest(node) if station is None else station])
 
+    def damage(self, node: int | str, fatigue: Mapping[str, Any]) -> float:
+        """Of the cycles of `rainflow` at a node, by an S–N curve: `strength`, `knee`, `slope`, `slope_below`, `ultimate`; failure at 1."""
+        return float(nivel.results.frames.loads.FatigueCurve.of(fatigue, "Pa").damages(self.rainflow(node)).sum())
+
     def widest(self, node: int | str) -> int:
         """The station of a node, a place in `labels(node)`, whose signed principal stress has the largest range."""
         return int(np.argmax(np.ptp(self.signed_principal(node), axis=0)))
@@ -168,6 +172,32 @@ class RecoveredBody:
         place = np.minimum((np.array([each.range for each in cycles]) / top * count).astype(int), count - 1)
         sums = np.bincount(place, weights=[each.count for each in cycles], minlength=count)
         return [(float(edges[k]), float(edges[k + 1]), float(sums[k])) for k in reversed(range(count)) if sums[k]]
+
+    # --- for other programs ---
+
+    def load_case(self, time: float) -> Array:
+        """(n, 6) [N, N m] forces and moments at the nodes, in the axes of the finite-element model, that bend it as it is at the frame
+        nearest to `time` [s]: the loads of interfaces and of inertia that the modes carry. They balance each other to round-off.
+
+        Raises ModelError where the body was reduced without them.
+        """
+        if self.body.loads is None:
+            message = "knows no forces of its nodes: reduce it with `recovery: {loads: true}`"
+            raise ModelError(f"the body {self.name} {message}")
+        loads = self.body.loads @ self.q[self.frame(time)]
+        loaded = np.flatnonzero(loads.any(axis=1))
+        rows = np.arange(6 * len(loaded))
+        lever = nivel.flexible.model.model.rigid_modes(self.body.position[loaded], rows.reshape(-1, 6), len(rows))
+        lever[~(loads[loaded] != 0.0).ravel()] = 0.0
+        for _ in range(2):  # the second time what round-off of the first one leaves
+            own = loads[loaded].ravel()
+            loads[loaded] = (own - lever @ np.linalg.lstsq(lever, own, rcond=None)[0]).reshape(-1, 6)
+        return loads
+
+    def write_load_cases(self, path: str | os.PathLike[str], times: Sequence[float] | None = None) -> Path:
+        """Write `load_case` at these times [s], default that of the largest stress, for CalculiX and Abaqus (.inp) or Nastran (.bdf)."""
+        moments = [self.worst_time] if times is None else list(times)
+        return nivel.results.load_cases.write_load_cases(path, self, moments)
 
     # --- pictures ---
 
@@ -333,8 +363,10 @@ def write_cycles(path: str | os.PathLike[str], body: RecoveredBody, nodes: Seque
     return write_rows(path, header, rows)
 
 
-def stress_facts(body: RecoveredBody, *, count: int, nodes: list[int], times: list[float]) -> dict[str, Any]:
-    """Hot spots over the run, the histories at `nodes`, the states at `times` [s]."""
+def stress_facts(
+    body: RecoveredBody, *, count: int, nodes: list[int], times: list[float], fatigue: Mapping[str, Any] | None = None
+) -> dict[str, Any]:
+    """Hot spots over the run, the histories at `nodes`, the states at `times` [s]. fatigue : S–N curve by which nodes have a damage."""
     trust = body.trust
     spots = [
         {
@@ -351,14 +383,14 @@ def stress_facts(body: RecoveredBody, *, count: int, nodes: list[int], times: li
         "body": body.name,
         "worst_time": body.worst_time,
         "hot_spots": spots,
-        "nodes": [_at_node(body, node) for node in nodes],
+        "nodes": [_at_node(body, node, fatigue) for node in nodes],
         "states": [_at_time(body, time) for time in times],
         "trust": {"verdict": trust.light, "verified": trust.verified, "headline": trust.headline},
     }
 
 
-def _at_node(body: RecoveredBody, node: int) -> dict[str, Any]:
-    """Greatest von Mises stress and when; range and cycles of the signed principal stress at the station where it is widest."""
+def _at_node(body: RecoveredBody, node: int, fatigue: Mapping[str, Any] | None) -> dict[str, Any]:
+    """Greatest von Mises stress and when; range, cycles and damage of the signed principal stress at the station where it is widest."""
     size, widest = body.von_mises(node), body.widest(node)
     signed = body.signed_principal(node)[:, widest]
     frame = int(np.argmax(size.max(axis=1)))
@@ -370,6 +402,7 @@ def _at_node(body: RecoveredBody, node: int) -> dict[str, Any]:
         "least": float(signed.min()),
         "greatest": float(signed.max()),
         "cycles": [list(each) for each in body.classes(node)],
+        **({"damage": body.damage(node, fatigue)} if fatigue else {}),
     }
 
 

@@ -115,6 +115,9 @@ class ReducedBody(Struct):
 
     **Left out.** `left_out` has the next modes, which a run is judged by; None where they are not known.
 
+    **Loads.** `loads` (n, 6, n_modes) has K Φ at the nodes of the model without ties of surfaces [N, N m per kg^½ m]: what bends it as the
+    modes do; None where they were not asked for.
+
     **Mesh.** `mesh_error` estimates how far the mesh is from its limit; None where it is not known.
 
     eigenvalues : (n,) [1/s²] stiffness of the modes.
@@ -141,6 +144,7 @@ class ReducedBody(Struct):
     source: str = ""
     left_out: LeftOut | None = None
     mesh_error: MeshError | None = None
+    loads: Array | None = None
 
     @property
     def frequencies(self) -> Array:
@@ -182,6 +186,7 @@ class ReducedBody(Struct):
             stiffening={name: each[:, take][:, :, take] for name, each in self.stiffening.items()},
             left_out=self._left_out_of(take),
             mesh_error=None if self.mesh_error is None else replace(self.mesh_error, share=self.mesh_error.share[take]),
+            loads=None if self.loads is None else self.loads[:, :, take],
         )
 
     def _left_out_of(self, kept: Whole) -> LeftOut | None:

@@ -130,6 +130,9 @@ def _write(out: _Writer, body: ReducedBody) -> None:
     out.put("node_position", body.position, ("node", "xyz"), "m", "undeformed place in the body frame")
     text = "displacement [kg^-0.5] and turn [kg^-0.5 m^-1] of nodes by the modes"
     out.put("node_mode", body.modes, ("node", "axis", "mode"), "kg^-0.5", text)
+    if body.loads is not None:
+        text = "forces [N] and moments [N m] at nodes for a modal coordinate of one"
+        out.put("node_load", body.loads, ("node", "axis", "mode"), "N kg^-0.5 m^-1", text)
     out.names("interface", tuple(each.name for each in body.interfaces))
     nodes = np.array([each.node for each in body.interfaces], dtype=np.int64)
     out.put("interface_node", nodes, ("interface",), "1", "place of the node of the interface, from 0")
@@ -245,6 +248,7 @@ def _read(file: Any) -> ReducedBody:
         solids=array("solid_node"),
         source=str(file.attrs["source"]),
         mesh_error=_mesh_error(file),
+        loads=array("node_load") if "node_load" in file else None,
         left_out=LeftOut(**{name: array(f"left_out.{name}") for name in LEFT_OUT}) if "left_mode" in file else None,
     )
 

@@ -216,6 +216,7 @@ class Recovery(Checked):
     stress: Truth = True
     strain: Truth = False
     nodes: Literal["all", "interfaces"] | tuple[int, ...] = Field("where stress is known", default="all")
+    loads: Truth = Field("forces at the nodes, for load cases of other programs", default=False)
 
 
 class _PartRecord(Checked):

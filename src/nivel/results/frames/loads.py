@@ -1,13 +1,18 @@
 """Loads of a result: peak and RMS reactions, power and work of actuators, cycles of any signal."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
-from nivel.errors import ModelError
+from nivel.errors import Fault, ModelError, refuse
 from nivel.flexible.body.recovery import Cycle, rainflow
 from nivel.known import Result
 from nivel.lazy import xarray
+from nivel.machine.core.record import Checked
+from nivel.machine.core.vectors import Array
+from nivel.machine.settings.values import settings_of
+from nivel.machine.study.any_quantity import AnyQuantity, another_measure, si
 from nivel.machine.units.quantity import asked
 from nivel.results.curve import (
     TOLD,
@@ -120,11 +125,48 @@ def _of_cycle(power: Curve, period: float) -> Number:
     return integral(power.within(max(last - period, first), last))
 
 
-def cycles(result: Result, name: str, *, repeating: bool = False) -> "xarray.Dataset":
+class FatigueCurve(Checked):
+    """S–N curve: the amplitude `strength` is borne `knee` times, a larger one N = knee (strength/S)^slope times (Basquin 1910), a smaller
+    one likewise with `slope_below`, without which it does no damage.
+
+    ultimate : tensile strength R, for amplitudes S/(1 - mean/R) about a tensile mean (Goodman); without one a mean has no effect.
+    """
+
+    strength: AnyQuantity
+    knee: AnyQuantity
+    slope: AnyQuantity
+    slope_below: AnyQuantity | None = None
+    ultimate: AnyQuantity | None = None
+
+    @classmethod
+    def of(cls, given: Mapping[str, Any], units: str) -> "FatigueCurve":
+        """Of numbers, or texts with units, by name; units : of strengths. Raises ModelError with everything that is wrong."""
+        curve, faults = settings_of(cls, "fatigue", given), list[Fault]()
+        values = {name: value for name, value in curve.model_dump().items() if value is not None}
+        for name, value in values.items():
+            wrong = another_measure(value, units if name in ("strength", "ultimate") else "1")
+            if wrong or not si(value) > 0.0:
+                faults.append(Fault.at(f"fatigue.{name}", wrong or f"a number above zero was expected, got {value}"))
+        refuse(faults)
+        return curve.replace(**{name: si(value) for name, value in values.items()})
+
+    def damages(self, cycles: Sequence[Cycle]) -> Array:
+        """(n,) count/N of each; infinite where the mean reaches the ultimate strength. Their sum is the damage (Palmgren, Miner 1945)."""
+        ranges, means, counts = np.array([[each.range, each.mean, each.count] for each in cycles]).reshape(-1, 3).T
+        left = 1.0 - np.maximum(means, 0.0) / (self.ultimate or np.inf)
+        with np.errstate(divide="ignore"):
+            share = np.where(left > 0.0, 0.5 * ranges / left, np.inf) / self.strength
+        return counts * np.where(share >= 1.0, share**self.slope, share ** (self.slope_below or np.inf)) / self.knee
+
+
+def cycles(
+    result: Result, name: str, *, repeating: bool = False, fatigue: Mapping[str, Any] | None = None
+) -> "xarray.Dataset":
     """Rainflow cycles (ASTM E1049, section 5.4.4) of a signal by its name, a number at a time: range, mean and count, ranges ascending.
     It turns back between frames too.
 
     repeating : the history goes on as it began, so that it starts at its largest peak and has no half cycles (section 5.4.5).
+    fatigue : numbers of a `FatigueCurve`, by which each has a `damage`, and the attribute `damage` is their sum.
     Raises ModelError for names that the result does not have, and for vectors: take a component.
     """
     values = result.array(name)
@@ -141,15 +183,21 @@ def cycles(result: Result, name: str, *, repeating: bool = False) -> "xarray.Dat
     if repeating:
         found = _whole(found)
     columns = np.array([[each.range, each.mean, each.count] for each in found]).reshape(-1, 3)
-    units = {"units": result[name].attrs.get("units", "")}
+    unit = result[name].attrs.get("units", "")
+    units = {"units": unit}
     data = {
         "range": (("cycle",), columns[:, 0], units),
         "mean": (("cycle",), columns[:, 1], units),
         "count": (("cycle",), columns[:, 2], {"units": "1"}),
     }
+    attributes: dict[str, Any] = {"signal": name}
+    if fatigue is not None:
+        each = FatigueCurve.of(fatigue, unit).damages(found)
+        data["damage"] = (("cycle",), each, {"units": "1"})
+        attributes["damage"] = float(each.sum())
     is_open = of.is_told(np.max(of.doubt, axis=0, initial=0.0))[0]
     lacks = [f"{name} between frames, where cycles may be larger"] * int(is_open)
-    return xarray.Dataset(data, attrs={"signal": name, **result.trust.of_derived(*_open(result, lacks)).attributes()})
+    return xarray.Dataset(data, attrs={**attributes, **result.trust.of_derived(*_open(result, lacks)).attributes()})
 
 
 def _whole(found: list[Cycle]) -> list[Cycle]:

@@ -82,6 +82,36 @@ MISTAKES = {
     "a lag in milliseconds": ("lag: 10 ms}", "lag: 10}", "ls", "for example `lag: 10 ms`"),
     "a cylinder that is too short": ("retracted_length: 0.82", "retracted_length: 0.3", "lift", "its stroke goes from"),
     "a rod thicker than its piston": ("rod: 56 mm", "rod: 156 mm", "lift", "thinner than its piston"),
+    "a tank that is forgotten": ("  tank: {type: tank, pressure: 2 bar}\n", "", "pump", "for a tank add `tank: {type: tank}`"),
+    "turns in a minute": ("speed: 1500 rpm", "speed: 1500 1/min", "pump", "turns in a minute are `rpm`"),
+    "a gauge pressure": ("opens_at: 200 bar", "opens_at: 200 barg", "relief", "write `bar`"),
+    "litres in a minute": ("flow: 60 L/min, pressure_drop: 200 bar", "flow: 60 lpm, pressure_drop: 200 bar", "relief", "write `L/min`"),
+    "gallons in a minute": ("flow: 60 L/min, pressure_drop: 200 bar", "flow: 16 GPM, pressure_drop: 200 bar", "relief", "write `gal/min`"),
+    "an efficiency in percent": ("cut_off: 190 bar", "cut_off: 190 bar, volumetric_efficiency: 95 %", "pump", "write `0.95`"),
+    "an efficiency of no point": ("cut_off: 190 bar", "cut_off: 190 bar, volumetric_efficiency: 0.95", "pump", "`nominal_pressure` is missing"),
+    "an orifice in metres": ("  left:", "  o: {type: orifice, ports: {A: line, B: tank}, diameter: 2}\n  left:", "o", "for example `diameter: 2 mm`"),
+    "an orifice by two sizes": ("  left:", "  o: {type: orifice, ports: {A: line, B: tank}, diameter: 2 mm, flow: 3 L/min, pressure_drop: 5 bar}\n  left:", "o", "give one of them"),
+    "a type of another spelling": ("type: relief-valve", "type: relief_valve", "relief", "did you mean `relief-valve`"),
+    "ways with a hyphen": ("ways: 4/3", "ways: 4-3", "valve", "did you mean `4/3`"),
+    "ports in small letters": ("{P: supply, T: tank}, opens", "{p: supply, t: tank}, opens", "relief", "did you mean `P`"),
+    "ports in a list": ("{P: supply, T: tank}, opens", "[supply, tank], opens", "relief", "such as {P: supply, T: tank}"),
+    "a command by a flow": ("command: 0, frequency", "command: pump.flow*1000, frequency", "valve", "use a state that follows it"),
+    "a name twice": ("  left:", "  line: {type: volume, volume: 1 L}\n  left:", "line", "the first is in line 17"),
+    "a fluid that is not there": ("line: {type: volume", "line: {type: volume, fluid: oil", "line", "there is no fluid `oil`"),
+    "a sonic conductance of oil": ("{A: supply, B: reserve}, flow: 40 L/min, pressure_drop: 2 bar", "{A: supply, B: reserve}, sonic_conductance: 3 dm^3/(s*bar)", "check", "liquids have `flow` at `pressure_drop`"),
+    "a bore": ("piston: 100 mm", "bore: 100 mm", "lift", "did you mean `piston`"),
+    "an accumulator without a port": ("ports: {A: reserve}, volume: 2 L", "volume: 2 L", "store", "write `ports: {A: …}`"),
+    "a precharge of zero": ("precharge: 90 bar", "precharge: 0 bar", "store", "greater than zero"),
+    "an engine that is not there": ("speed: 1500 rpm, margin", "engine: diesel, margin", "pump", "there is no engine `diesel`"),
+    "a pump that two things turn": ("speed: 1500 rpm, margin", "speed: 1500 rpm, coordinate: hinge, margin", "pump", "got `speed` and `coordinate`"),
+    "a setting in percent": ("LS: ls}, displacement: 28 cm^3/rev, speed: 1500 rpm, margin: 20 bar, cut_off: 190 bar", "B: supply}, displacement: 28 cm^3/rev, speed: 1500 rpm, setting: 80", "pump", "a share from -1 to 1"),
+    "an overlap in percent": ("command: 0, frequency", "overlap: 10, command: 0, frequency", "valve", "a share of the stroke"),
+    "a negative margin": ("margin: 20 bar", "margin: -20 bar", "pump", "greater than zero"),
+    "ends in millimetres": ("[[0.17, 0.386, 0], [0.214, 1.326, 0]]", "[[170, 386, 0], [214, 1326, 0]]", "lift", "between its ends at the start"),
+    "a cylinder of no bodies": ("bodies: [ground, boom], points: [[0.17, 0.386, 0], [0.214, 1.326, 0]], piston", "piston", "lift", "two `bodies` and two `points`"),
+    "a range that is missing": ("opening_range: 20 bar, flow: 60", "flow: 60", "relief", "`opening_range` is missing"),
+    "a part that is not there": ("displacement: 28 cm^3/rev, speed", "part: a10vso-28, speed", "pump", "entry of `catalogue`"),
+    "a wrong coordinate": ("  left:", "  m: {type: hydraulic-motor, ports: {A: left, B: right}, displacement: 50 cm^3/rev, coordinate: hing}\n  left:", "m", "did you mean `hinge`"),
     "a tank below no pressure": ("pressure: 2 bar", "pressure: -1 bar", "tank", "one greater than zero"),
 }  # fmt: skip
 MORE = {
@@ -143,7 +173,7 @@ def test_a_node_that_two_components_name_is_a_volume_of_the_usual_size():
 
 
 def test_all_mistakes_are_answered():
-    assert len(MISTAKES) == 43
+    assert len(MISTAKES) == 73
     left = {name: found for name in MISTAKES for answered, found in [is_answered(name)] if not answered}
     assert not left
 

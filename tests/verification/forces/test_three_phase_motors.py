@@ -278,6 +278,10 @@ def test_what_an_induction_motor_needs_is_told(more, told):
     [
         ("effort: 1 N m", "`dc_voltage`, or a `battery`"),
         ("effort: 1 N m, dc_voltage: 48 V, resistance: 0", "`resistance` is missing"),
+        (
+            "effort: 1 N m, battery: {charges: [0, 100], voltages: [300, 400], capacity: 1 A*h, resistance: 1}",
+            "shares from 0 to 1",
+        ),
     ],
 )
 def test_what_a_synchronous_motor_needs_is_told(more, told):

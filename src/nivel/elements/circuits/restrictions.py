@@ -33,6 +33,7 @@ from nivel.machine.core.coefficient import Leakage, Share
 from nivel.machine.core.record import Problem, superfluous
 from nivel.machine.given import Field, Maybe
 from nivel.machine.laws.time_function import OneFunction, varying
+from nivel.machine.units.quantity import PositiveLength
 from nivel.native.function import leaf, stage
 
 # columns of `columns`; POSITION: output of the valve, or a function. Output: flow [m³/s]
@@ -241,7 +242,7 @@ class Orifice(Rating, Component):
     passes: ClassVar[tuple[tuple[str, str], ...]] = (("A", "B"), ("B", "A"))
 
     type: Literal["orifice"] = "orifice"
-    diameter: Maybe[ranges.Bore] = Field(default=None)
+    diameter: Maybe[PositiveLength] = Field(default=None, usual=ranges.ORIFICE)
     discharge_coefficient: Share = Field(default=0.65)
     leakage: Leakage = Field("flow over the difference of pressure, laminar", default=0.0)
     opening: Opening = Field("from 0, closed, to 1", default=1.0)

@@ -83,6 +83,8 @@ class Battery(Checked):
             yield Problem(("voltages",), f"as many voltages as charges were expected, two or more; {counts}")
         elif any(b <= a for a, b in zip(self.charges, self.charges[1:], strict=False)):
             yield Problem(("charges",), "states of charge that increase were expected")
+        elif self.charges[0] < 0.0 or self.charges[-1] > 1.0:
+            yield Problem(("charges",), f"shares from 0 to 1 were expected, got {self.charges[-1]:g}; 80 % are 0.8")
 
 
 class ThreePhaseMotor(Drive):

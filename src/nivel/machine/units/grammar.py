@@ -202,6 +202,8 @@ class _Parser:
     def unexpected(self, hint: str = "") -> tree.ExpressionError:
         if self.at >= len(self.tokens):
             return tree.ExpressionError(f"the expression ends too early{hint}")
+        if [each.text for each in self.tokens[self.at : self.at + 3]] == ["1", "/", "min"]:
+            hint = "; turns in a minute are `rpm`"
         return tree.ExpressionError(f"`{self.tokens[self.at].text}` was not expected here{hint}")
 
 
@@ -273,6 +275,8 @@ def placed_tokens(text: str) -> list[Token]:
         if found is None:
             sign = text[at:].lstrip()[0]
             hint = "; numbers that vary are hardly ever equal: write `<` or `>`" if sign in "=!" else ""
+            if sign == "%" and tokens and tokens[-1].kind == "number":
+                hint = f"; a share is a number: write `{float(tokens[-1].text) / 100.0:g}`"
             raise tree.ExpressionError(f"`{sign}` is not understood{hint}")
         kind = str(found.lastgroup)
         tokens.append(Token(kind, found.group(kind), *found.span(kind)))

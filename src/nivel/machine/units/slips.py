@@ -35,11 +35,15 @@ _ANSWERS: Final = (
 
 _BARE_T: Final = r"(?<![\w.])(?<!\d )t(?![\w.(])"  # no unit behind a number
 _PART: Final = r"k?Nm(?!m)|[kMm]?N|[kMG]?Pa|bar|k?J|k?W|kg|[mck]?m|rad|deg|min|[sghNt]|\d"
+# abbreviations of data sheets, in small letters
+_OF_SHEETS: Final = {"gpm": "gal/min", "lpm": "L/min", "barg": "bar", "bara": "bar", "psig": "psi", "psia": "psi"}
 _OF_FORCE: Final = r"[kMm]?N|[kMG]?Pa|bar|k?J|k?W"  # before an `s` that is no plural
 
 
 def spelled(name: str) -> str:
-    """The product of units that is meant by `name`: ``kg*m^2`` for `kgm2`, ``N*s`` for `Ns`; empty where none is seen."""
+    """The units that are meant by `name`: ``kg*m^2`` for `kgm2`, ``N*s`` for `Ns`, ``L/min`` for `lpm`; empty where none are seen."""
+    if name.lower() in _OF_SHEETS:
+        return _OF_SHEETS[name.lower()]
     parts = re.findall(_PART, name)
     if len(parts) < 2 or "".join(parts) != name or parts[0].isdigit():
         return ""

@@ -128,7 +128,8 @@ def hydraulic_faults(machine: Any, index: Index, parameters: Parameters) -> Faul
 def with_named_nodes(data: Any) -> Any:
     """`data` of a machine in which a node that two components name, and that none of them makes, is a volume of the usual size.
 
-    One name alone may be a slip, and of several fluids none is known: these stay faults.
+    One name alone may be a slip, and of several fluids none is known: these stay faults. So does what valves return to and pumps draw
+    from, which is a tank.
     """
     components = elements(data, "hydraulics") if isinstance(data, Mapping) else []
     if not isinstance(entry(data, "hydraulics"), list | tuple) or len(elements(data, "fluids")) > 1:
@@ -138,8 +139,16 @@ def with_named_nodes(data: Any) -> Any:
     for component in components:
         sensing = (record_of(str(entry(component, "type"))) or Component).sensing
         named.update({node for port, node in ports_of(component).items() if port not in sensing})
+    known |= _tanks_meant(components)
     met = [node for node, count in named.items() if count > 1 and node not in known and node.isidentifier()]
     return {**data, "hydraulics": [*components, *({"name": node, "type": "volume"} for node in met)]} if met else data
+
+
+def _tanks_meant(components: Any) -> set[str]:
+    """What valves return to and pumps draw from."""
+    ports = [(str(entry(each, "type")), ports_of(each)) for each in components]
+    drawn = {its["A"] for type_, its in ports if type_ == "pump" and "A" in its}
+    return drawn & {its["T"] for _, its in ports if "T" in its}
 
 
 def node_types(components: Any) -> dict[str, str]:
@@ -186,7 +195,9 @@ def _of_ports(component: Any, nodes: Mapping[str, str], used: set[str], place: P
             hint = f"; a chamber of it is needed: {' or '.join(f'`{each}`' for each in whole)}" if whole else ""
             said = f"`{node}` is no node of the circuit{hint}" if hint else unknown_name("node", node, tuple(nodes))
             if "did you mean" not in said and node.isidentifier():
-                said += f"; where components meet, add `{node}: {{type: volume, volume: 0.2 L}}`"
+                is_tank = port == "T" or (type_, port) == ("pump", "A")
+                meant = "{type: tank}" if is_tank else "{type: volume, volume: 0.2 L}"
+                said += f"; {'for a tank' if is_tank else 'where components meet,'} add `{node}: {meant}`"
             yield where, said
         elif nodes[node] == SIGNAL and port not in sensing:
             yield where, f"`{node}` is a signal, into which nothing flows; a port {' or '.join(SENSING)} may read it"

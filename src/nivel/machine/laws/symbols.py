@@ -235,17 +235,6 @@ def _in_text(text: str, index: Index, parameters: Parameters) -> tuple[str, ...]
 def _has_hyphen(path: str, index: Index) -> bool:
     """Whether an element's name ends in this one behind a `-`, which an expression takes for minus."""
     ending = f"-{path.partition('.')[0]}"
-    return any(
-        name.endswith(ending)
-        for its in (
-            index.joints,
-            index.inputs,
-            index.states,
-            index.control,
-            index.hydraulics,
-            index.sensors,
-            index.markers,
-            index.bodies,
-        )
-        for name in its
-    )
+    moving = (index.joints, index.sensors, index.markers, index.bodies)
+    names = (name for its in (*moving, index.inputs, index.states, index.control, index.hydraulics) for name in its)
+    return any(name.endswith(ending) for name in names)

@@ -56,14 +56,10 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
         yield from _unknown_body(entry(marker, "body"), index, ("markers", at, "body"))
         if isinstance(marker, Mapping | Record) and entry(marker, "name") is None:
             yield ("markers", at), "`name` is missing"
-    for at, joint in enumerate(elements(machine, "joints")):
-        yield from _of_joint(joint, index, ("joints", at))
-    for at, driver in enumerate(elements(machine, "drivers")):
-        yield from _of_driver(driver, index, ("drivers", at))
-    for at, force in enumerate(elements(machine, "forces")):
-        yield from _of_force(force, index, ("forces", at))
-    for at, sensor in enumerate(elements(machine, "sensors")):
-        yield from _of_sensor(sensor, index, ("sensors", at))
+    looks = (("joints", _of_joint), ("drivers", _of_driver), ("forces", _of_force), ("sensors", _of_sensor))
+    for section, look in looks:
+        for at, element in enumerate(elements(machine, section)):
+            yield from look(element, index, (section, at))
     for at, block in enumerate(elements(machine, "control")):
         yield from symbol_faults(block, ("control", at), index, parameters or {}, CONTROL_KEYS)
     if elements(machine, "hydraulics"):

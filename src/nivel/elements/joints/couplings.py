@@ -29,7 +29,7 @@ Terms = tuple[tuple[str, float], ...]
 _TWO = Field("two joint coordinates, or joints that have only one")
 
 
-class Coupling(Checked):
+class JointCoupling(Checked):
     """An equation between joint coordinates. needed : kinds of the coordinates of its terms; none where any will do."""
 
     collection: ClassVar[str] = "couplings"
@@ -48,7 +48,7 @@ class Coupling(Checked):
         return self.needed or (None,) * len(self.terms)
 
 
-class Gear(Coupling):
+class Gear(JointCoupling):
     """Two wheels that mesh: n₁ angle₁ + n₂ angle₂ is held; of an internal gear n₁ angle₁ - n₂ angle₂."""
 
     needed: ClassVar[tuple[Kind, ...]] = ("angle", "angle")
@@ -76,7 +76,7 @@ class Gear(Coupling):
                 )
 
 
-class Belt(Coupling):
+class Belt(JointCoupling):
     """Two pulleys and a belt that does not slip: r₁ angle₁ - r₂ angle₂ is held; crossed r₁ angle₁ + r₂ angle₂."""
 
     needed: ClassVar[tuple[Kind, ...]] = ("angle", "angle")
@@ -92,7 +92,7 @@ class Belt(Coupling):
         return (self.joints[0], first), (self.joints[1], second if self.crossed else -second)
 
 
-class Rack(Coupling):
+class Rack(JointCoupling):
     """A pinion and a rack: displacement - r · angle is held."""
 
     needed: ClassVar[tuple[Kind, ...]] = ("length", "angle")
@@ -110,7 +110,7 @@ class Rack(Coupling):
             yield Problem(("radius",), "`radius` is zero: such a pinion moves no rack")
 
 
-class LinearCoupling(Coupling):
+class LinearCoupling(JointCoupling):
     """Σ factor · coordinate is held."""
 
     type: Literal["linear"] = "linear"
@@ -136,7 +136,7 @@ class LinearCoupling(Coupling):
 SMOOTH: Final = ("cubic", "quintic", "periodic")
 
 
-class FunctionCoupling(Coupling):
+class FunctionCoupling(JointCoupling):
     """A coordinate that is a function of others: coordinate = value, as of a cam, a pair of non-circular gears, a linkage as a curve."""
 
     type: Literal["function"] = "function"

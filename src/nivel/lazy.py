@@ -134,8 +134,8 @@ def dataclass(kind=None, /, *, frozen=False, eq=True, repr=True, order=False, kw
 
 
 class Struct:
-    """A record of facts: each class below is a dataclass that refuses changes."""
+    """A record: each class below is a dataclass that refuses changes, but for those with `frozen=False`."""
 
-    def __init_subclass__(cls, **options: bool) -> None:
+    def __init_subclass__(cls, *, frozen: bool = True, **options: bool) -> None:
         super().__init_subclass__()
-        dataclass(cls, frozen=True, **options)
+        dataclass(cls, frozen=frozen, **options)

@@ -17,7 +17,7 @@ from nivel.errors import Fault, refuse
 from nivel.exchange.mechanism import Array, Frame
 from nivel.exchange.translation import Notes
 from nivel.files.joint_parts import rotors_of
-from nivel.lazy import Struct, dataclass, field
+from nivel.lazy import Struct, field
 from nivel.machine.bodies.body import Body
 from nivel.machine.core.element import Marker
 from nivel.machine.core.placement import marker_frame
@@ -39,8 +39,7 @@ class Motion(Struct):
     coordinate: str  # as JOINT.COORDINATE
 
 
-@dataclass
-class Branch:
+class Branch(Struct, frozen=False):
     """A body in the tree. parent : name of the body before it. place : its frame in that of the parent, all coordinates zero.
 
     joint : between the two; None of a free body. motions : in the order from the parent. ball : whether it is a spherical joint. point : of
@@ -56,8 +55,7 @@ class Branch:
     point: Array = field(default_factory=lambda: np.zeros(3))
 
 
-@dataclass
-class AtCoordinate:
+class AtCoordinate(Struct, frozen=False):
     """What acts at a joint coordinate. friction : effort. armature : rotor inertia. placed : its value as the bodies are placed."""
 
     damping: float = 0.0
@@ -69,8 +67,7 @@ class AtCoordinate:
     upper: float | None = None
 
 
-@dataclass
-class KinematicTree:
+class KinematicTree(Struct, frozen=False):
     """branches : parents before their children. loops : joints beside the tree. at : what acts at coordinates. follows : coordinate, other
     one, factor and offset. motors : (name, coordinate, factor, limit). notes : what has no place here."""
 

@@ -16,7 +16,7 @@ from nivel.exchange.translation import Notes, number, triple, turn
 from nivel.files.mesh_file import KINDS, NotReadError, parse
 from nivel.files.sources import read_bytes
 from nivel.files.xml_source import Document, Element
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 from nivel.machine.bodies.surface import Triangles
 from nivel.machine.core.placement import frame_from_axes
 
@@ -64,8 +64,7 @@ def look_of(given: Element, at: Frame, colour: str, document: Document, default:
     return solid.tag
 
 
-@dataclass
-class Drawing:
+class Drawing(Struct, frozen=False):
     """Meshes of a model. file : the model. packages : folders of packages. target : folder of the machine file, to which names of meshes
     are relative. made : surfaces of meshes that have to be written, by file name."""
 

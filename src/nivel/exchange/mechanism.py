@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault
 from nivel.exchange.translation import Names, Notes
-from nivel.lazy import Struct, dataclass, field
+from nivel.lazy import Struct, field
 from nivel.machine.core.record import GROUND
 from nivel.machine.core.vectors import Array
 
@@ -73,8 +73,7 @@ class Look(Struct):
     surface: tuple[Array, NDArray[np.uint32]] | None = None
 
 
-@dataclass
-class Link:
+class Link(Struct, frozen=False):
     """A link. place : global. inertial : None where none is given."""
 
     name: str
@@ -84,8 +83,7 @@ class Link:
     line: int = 0
 
 
-@dataclass
-class Connection:
+class Connection(Struct, frozen=False):
     """A joint. kind : the type of joint in a machine file. bodies : names of two links, or WORLD. placed : its coordinate where the links
     stand.
 
@@ -154,8 +152,7 @@ class Rope(Struct):
     damping: float
 
 
-@dataclass
-class Actuator:
+class Actuator(Struct, frozen=False):
     """A force F = (gain[0] + gain[1] l + gain[2] l̇) a + bias[0] + bias[1] l + bias[2] l̇ along a length l, within `limit`.
 
     Each joint has f F. control, activation : ranges of the control u and of a. time : of the filter a from u [s], 0 of an integrator of u,
@@ -173,8 +170,7 @@ class Actuator:
     rest: float = 0.0
 
 
-@dataclass
-class Tendon:
+class Tendon(Struct, frozen=False):
     """A length of joints with a spring that is slack between `free`, a damper, and ends; those have a stiffness that is found later."""
 
     name: str
@@ -219,16 +215,14 @@ class Touch(Struct):
     roll: float = 0.0
 
 
-@dataclass
-class Group:
+class Group(Struct, frozen=False):
     """Links that move as one. first : the one whose frame is that of the body, WORLD for the ground. links : all of them."""
 
     first: str
     links: list[str] = field(default_factory=list)
 
 
-@dataclass
-class Mechanism:
+class Mechanism(Struct, frozen=False):
     """links by name, and what connects them. gravity : (3,) [m/s²].
 
     sites : further frames, (name, link, frame in the link). lifts : constant forces, (link, point in the link, force in global axes).

@@ -10,7 +10,7 @@ from nivel.exchange.mechanism import WORLD, Array, Connection, Frame, Inertial, 
 from nivel.exchange.translation import Notes
 from nivel.exchange.urdf import digits
 from nivel.files.xml_source import Document, Element
-from nivel.lazy import dataclass, field, nivel
+from nivel.lazy import Struct, field, nivel
 
 KINDS: Final = {
     "revolute": "revolute",
@@ -31,8 +31,7 @@ THE_WORLD: Final = "world"
 NEWER: Final = 1.7  # from this version on, axes are in the frame of the joint unless they say otherwise
 
 
-@dataclass
-class Poses:
+class Poses(Struct, frozen=False):
     """Frames of a model by name: what each is attached to, its own pose, and its element. Those of joints are relative to their child.
 
     of_joints : names of the frames of joints, which may have the name of a link before SDF 1.7.

@@ -11,15 +11,14 @@ from numpy.typing import NDArray
 from nivel.files.mesh_file import stl_content
 from nivel.files.outline import FORMAT
 from nivel.files.writer import write_data
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 from nivel.machine.core.orientation import euler_parameters_from_matrix
 from nivel.machine.core.record import GROUND, NAME
 
 MOST_NAMES: Final = 12  # of a note, in a line
 
 
-@dataclass
-class Notes:
+class Notes(Struct, frozen=False):
     """Notes in their order; each is a sentence, and the elements with their lines that it is about."""
 
     changed: dict[str, dict[str, int]] = field(default_factory=dict)
@@ -68,8 +67,7 @@ ONE: Final = {
 WIDTH: Final = 130  # of comments in a machine file
 
 
-@dataclass
-class Translation:
+class Translation(Struct, frozen=False):
     """data : sections of the machine file. meshes : vertices (n, 3) and triangles (m, 3) of the files that belong to it, by their names.
 
     source : the file that was translated, and its format in words. lines : of an element by its name, where it is in the source, and what.
@@ -116,8 +114,7 @@ SHARED: Final = {"marker": "body", "coupling": "joint", "driver": "joint"}
 IN_EXPRESSIONS: Final = ("input", "joint")  # where `-` is the minus sign
 
 
-@dataclass
-class Names:
+class Names(Struct, frozen=False):
     """Names given so far. taken : by kind. of : by kind and name in the source."""
 
     taken: dict[str, set[str]] = field(default_factory=dict)

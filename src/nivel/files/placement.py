@@ -24,7 +24,7 @@ from nivel.elements.beams.beam import Beam
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
 from nivel.files.substitution import NotRepresentableError, rewritten, same, substituted
-from nivel.lazy import Struct, dataclass, field
+from nivel.lazy import Struct, field
 from nivel.machine.bodies.body import Body
 from nivel.machine.core.element import Marker
 from nivel.machine.core.orientation import (
@@ -144,8 +144,7 @@ def triple(vector: Sequence[float] | Array) -> Triple:
 _QUANTITIES = {f"{kind}{axis}": (kind, at) for kind in ("", "v", "w") for at, axis in enumerate("xyz")}
 
 
-@dataclass
-class Scene:
+class Scene(Struct, frozen=False):
     """A part before it is placed; `extra` markers are made on the way."""
 
     placement: Placement

@@ -13,7 +13,7 @@ import yaml
 
 from nivel.errors import Fault, ModelError, refuse
 from nivel.files.nodes import DEEPEST, MOST, TOO_DEEP, TOO_MANY, NotYamlError, Place, compose, cut_at_comma
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 from nivel.machine.units.quantity import FAULT
 
 Path = tuple[str | int, ...]
@@ -27,8 +27,7 @@ NOT_FINITE: Final = re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)")
 _PREFIX = "tag:yaml.org,2002:"
 
 
-@dataclass
-class Tree:
+class Tree(Struct, frozen=False):
     """The content of a file: `data` of dicts, lists and scalars; `places` of values and of `keys` by path; `faults`.
 
     What stands under one of `files` came from that file. A path under one of `outside` was set from outside the file

@@ -11,7 +11,7 @@ from nivel.elements.forces.magic_formula import SCALES, MagicFormula, faults_of
 from nivel.files.outline import section_of
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 
 VERSIONS: Final = {5: "5.2", 6: "5.2", 51: "5.2", 52: "5.2", 60: "6.1", 61: "6.1", 62: "6.1"}  # by FITTYP
 FORMATS: Final = {
@@ -35,8 +35,7 @@ RENAMED: Final = {"IP": "INFLPRES", "IP_NOM": "NOMPRES"}
 LINE: Final = re.compile(r"([A-Za-z_][\w .-]*?)\s*=\s*(?:'([^']*)'|\"([^\"]*)\"|([^$!#]*))")
 
 
-@dataclass
-class TyreFile:
+class TyreFile(Struct, frozen=False):
     """Numbers and texts of a file by their keys, the line of each key, and what is wrong, by line."""
 
     numbers: dict[str, float] = field(default_factory=dict)

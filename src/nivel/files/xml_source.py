@@ -12,7 +12,7 @@ from typing import Final
 from xml.parsers import expat
 
 from nivel.errors import Fault, ModelError
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 
 MOST_BYTES: Final = 200 * 10**6
 MOST_ELEMENTS: Final = 1_000_000
@@ -20,8 +20,7 @@ DEEPEST: Final = 200  # elements inside each other
 MOST_FAULTS: Final = 100
 
 
-@dataclass
-class Element:
+class Element(Struct, frozen=False):
     """One element. line, column : where it begins, from 1. text : of it alone."""
 
     tag: str

@@ -29,7 +29,7 @@ from typing import Final
 import numpy as np
 
 from nivel.errors import Fault, ModelError
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.live.picture import gauges
 from nivel.live.preparation import SILENCE
 from nivel.live.session import Session
@@ -44,8 +44,7 @@ ROOM: Final = 1 << 20  # bytes that may wait to be read
 Place = tuple[str, int]  # address and port
 
 
-@dataclass
-class Counts:
+class Counts(Struct, frozen=False):
     """Datagrams that were taken, and those that were dropped: malformed, older than one before, too many, of a sender that does not
     drive."""
 
@@ -73,8 +72,7 @@ def place_of(text: str, option: str) -> tuple[str, int]:
         raise ModelError(Fault.at(option, f"`{host}` is no host that is known here")) from None
 
 
-@dataclass
-class _Driver:
+class _Driver(Struct, frozen=False):
     """The sender whose inputs the machine follows. sequence, stamp : of its last datagram that was taken, at the time `heard` [s]."""
 
     place: Place

@@ -14,7 +14,7 @@ from nivel.judge.after.checks import circuits, energy, joints
 from nivel.judge.after.checks.energy import Energy
 from nivel.judge.after.checks.joints import Violation
 from nivel.judge.after.subject import Motion
-from nivel.lazy import Struct, dataclass, field, replace
+from nivel.lazy import Struct, field, replace
 from nivel.live.timing import Timing
 from nivel.machine.core.vectors import Array
 from nivel.results.frames.contents import MemoryContents
@@ -50,8 +50,7 @@ class Light(Struct):
     reasons: tuple[str, ...] = ()
 
 
-@dataclass
-class Judge:
+class Judge(Struct, frozen=False):
     """Finds the light from frames. layout, attributes : of the run, as a result has them."""
 
     layout: FrameLayout

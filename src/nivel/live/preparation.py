@@ -21,7 +21,7 @@ from nivel.integrate.loop.run import TIME, Run
 from nivel.kernels.core.block import Handle
 from nivel.kernels.output.observe import observe
 from nivel.known import SoilUnit
-from nivel.lazy import Struct, dataclass
+from nivel.lazy import Struct
 from nivel.live.shared import Ground, Sizes, arrays_in, put_back, taken
 from nivel.machine.laws.time_function import Table
 from nivel.machine.laws.varying_value import Expression
@@ -90,8 +90,7 @@ def live_plan(machine: MachineRecord, settings: Mapping[str, Any], tick: float |
     return plan, pace
 
 
-@dataclass
-class LiveRun:
+class LiveRun(Struct, frozen=False):
     """A prepared machine, its history, and the compiled loop. drive : tick as `Live.control` says; returns a status."""
 
     prepared: Prepared

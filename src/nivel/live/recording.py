@@ -19,7 +19,7 @@ import numpy as np
 import nivel
 from nivel.errors import ModelError
 from nivel.files.target import Growing
-from nivel.lazy import Struct, dataclass, field
+from nivel.lazy import Struct, field
 from nivel.live.preparation import Pace
 from nivel.machine.core.vectors import Array
 from nivel.machine.laws.time_function import Table
@@ -234,8 +234,7 @@ def about_run(machine: MachineRecord, source: str, settings: Mapping[str, Any], 
     }
 
 
-@dataclass
-class _Kept:
+class _Kept(Struct, frozen=False):
     """A part in a journal: where its ticks and frames stand."""
 
     before: int

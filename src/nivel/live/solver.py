@@ -18,7 +18,7 @@ from nivel.integrate.loop.run import STEP as STEP_CLOCK
 from nivel.judge.during.failure import failure
 from nivel.judge.during.stop import Stop
 from nivel.kernels.core import status as codes
-from nivel.lazy import asdict, dataclass, field, nivel
+from nivel.lazy import Struct, asdict, field, nivel
 from nivel.live import shared
 from nivel.live.preparation import LiveRun, Pace, prepared_run
 from nivel.live.shared import Snapshot, arrays_in, live_in, put_back, soils_in, taken
@@ -31,8 +31,7 @@ FIRST: Final = 20  # ticks that are done for nothing
 REST: Final = 0.004  # s between two looks at the commands while nothing moves
 
 
-@dataclass
-class Told:
+class Told(Struct, frozen=False):
     """What the solver says over its pipe. kind : ready, said, failed, refused, parts, counts."""
 
     kind: str

@@ -10,7 +10,7 @@ from typing import Any, Final
 import yaml
 
 from nivel.files.nodes import NotYamlError, compose
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 
 KINDS: Final = {
     "bodies": "body",
@@ -42,8 +42,7 @@ PLAIN: Final = (
 )  # keys whose texts name no element
 
 
-@dataclass
-class DiagramBox:
+class DiagramBox(Struct, frozen=False):
     """An element, or all components of circuits that neither act on bodies nor read signals. kind : how it is drawn.
 
     words : what it is. joins : numbers of the boxes that it connects or acts on. reads : numbers of those whose signals it reads.

@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 from nivel.machine.bodies.surface import surface_arrays
 from nivel.machine.core.vectors import Array
 
@@ -17,8 +17,7 @@ SMOOTH, RIMS = np.zeros(4, dtype=bool), np.array([True, False, True, False])
 FEW_FACETS, FEWEST_FACETS = 20, 8  # in a machine of many bodies, to keep the picture small
 
 
-@dataclass
-class Face:
+class Face(Struct, frozen=False):
     """A flat convex face: corners (n, 3) [m], counter-clockwise seen from outside.
 
     outlined : whether the edge from each corner to the next is a real edge of the solid, (n,) bool.
@@ -29,8 +28,7 @@ class Face:
     outlined: NDArray[np.bool_] = field(default_factory=lambda: np.ones(4, dtype=bool))
 
 
-@dataclass
-class Ball:
+class Ball(Struct, frozen=False):
     """A sphere; it looks the same from everywhere."""
 
     centre: Array

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import Struct, dataclass, field
+from nivel.lazy import Struct, field
 from nivel.looks.viewpoint import View
 from nivel.machine.core.vectors import Array
 
@@ -130,8 +130,7 @@ def _cost(box: Box, far: float, placed: list[Placed], near: tuple[Array, Array, 
     return cost
 
 
-@dataclass
-class Drawing:
+class Drawing(Struct, frozen=False):
     """What is drawn, and what names must keep clear of. Pixels.
 
     parts : (depth, SVG) of bodies, drawn far things first. links : over them. signs : over all.

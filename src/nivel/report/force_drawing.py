@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.lazy import dataclass
+from nivel.lazy import Struct
 from nivel.looks.poses import Array, Pose, ends_in_space, in_space, joint_axis
 from nivel.report import strokes
 from nivel.report.drawing import Drawing, Frame, Label
@@ -16,8 +16,7 @@ from nivel.report.drawing import Drawing, Frame, Label
 STEPS: Final = 24  # of an arc
 
 
-@dataclass
-class Place:
+class Place(Struct, frozen=False):
     """A wheel, or a point without one. at : its centre seen along the axis; radius : signed; free : direction behind it, of length one;
     near, arc [rad] : which one the arc is next to; below zero where the rope does not touch the wheel."""
 

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, Final
 from urllib.parse import parse_qs, urlsplit
 
 from nivel.errors import ModelError
-from nivel.lazy import dataclass, field, websockets
+from nivel.lazy import Struct, field, websockets
 from nivel.view.page import script_hash, served_page
 from nivel.view.sources import Source
 from nivel.view.stream import LARGEST, REFUSED, Stream
@@ -37,8 +37,7 @@ HANDSHAKE: Final = 5.0  # seconds that a connection may take to say what it want
 PORTS: Final = range(8640, 8660)  # tried in their order
 
 
-@dataclass
-class Address:
+class Address(Struct, frozen=False):
     """Where the server listens. port : 0 for a free one. token : needed in the address of the page, or empty."""
 
     host: str = "127.0.0.1"
@@ -65,8 +64,7 @@ class Address:
         return f"http://{host}:{self.port}/" + (f"?token={self.token}" if self.token else "")
 
 
-@dataclass
-class Viewing:
+class Viewing(Struct, frozen=False):
     """A server and the pages connected to it."""
 
     source: Source

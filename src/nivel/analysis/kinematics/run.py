@@ -36,7 +36,7 @@ from nivel.judge.during.lockup import find_jam
 from nivel.judge.during.stop import Stop
 from nivel.kernels.core.block import Handle
 from nivel.kernels.core.status import CONTRADICTION, DONE
-from nivel.lazy import dataclass, replace
+from nivel.lazy import Struct, replace
 from nivel.machine.laws.varying_value import Expression, Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.analyses import KinematicsSettings
@@ -60,8 +60,7 @@ INTEGRATED = frozenset({"external_work", "dissipated_energy", "energy_error"})
 FACTS = IntegratorFacts("", follow_positions, order=1, numbers=1)
 
 
-@dataclass
-class _Chosen:
+class _Chosen(Struct, frozen=False):
     """Frames without the columns that mean nothing here, for another sink."""
 
     sink: Memory | Store

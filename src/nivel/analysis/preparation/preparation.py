@@ -28,7 +28,7 @@ from nivel.judge.before.refusals import deep_starts, moved_nodes, struck_nodes, 
 from nivel.kernels.core.arrays import copied
 from nivel.kernels.record.record import Record
 from nivel.known import Beam
-from nivel.lazy import Struct, dataclass, nivel, replace
+from nivel.lazy import Struct, nivel, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
 from nivel.motion.shared_loads import share_loads
@@ -305,8 +305,7 @@ def _wanted(motion: MotionEquations, y: Array, methods: Methods) -> ResidualOpti
 FROM_FRAME = ("position", "orientation", "velocity", "angular_velocity", "joint_coordinate")
 
 
-@dataclass
-class SharedLoads:
+class SharedLoads(Struct, frozen=False):
     """The equations in absolute coordinates, with a record of their own, and the state of a frame in them."""
 
     motion: MotionEquations

@@ -11,7 +11,7 @@ from typing import Any, Final, Protocol
 import numpy as np
 
 from nivel.integrate.loop.run import ALLOWED, EVALUATIONS, FACTORISATIONS, HORIZON, PARTS, TAKEN, TIME, Run
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 from nivel.system.system import Array
 
 # A step of the second run is at most this share of the longest one that the first made at that time: of each part of the duration another
@@ -40,8 +40,7 @@ class Pacing(Protocol):
         ...
 
 
-@dataclass
-class Leader:
+class Leader(Struct, frozen=False):
     """Tells how far a run is, how long its steps were and what `work` it did. begun : set when its first step is about to begin.
     most : work after which it ends."""
 
@@ -70,8 +69,7 @@ class Leader:
         self.begun.set()
 
 
-@dataclass
-class Follower:
+class Follower(Struct, frozen=False):
     """Bounds the steps of a run that chooses them by those of the run that leads, and keeps it behind. Without a leader it only asks
     whether the run is to stop.
 

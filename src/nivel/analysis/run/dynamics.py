@@ -35,7 +35,7 @@ from nivel.judge.during.stop import NO_NUMBER
 from nivel.kernels.core.block import Handle
 from nivel.kernels.output.observe import observe
 from nivel.kernels.record.hook import FAMILIES
-from nivel.lazy import dataclass, field, nivel, replace
+from nivel.lazy import Struct, field, nivel, replace
 from nivel.native.entry import Entry
 from nivel.results.frames.summary import Occurrence
 from nivel.system.system import Array, System
@@ -59,8 +59,7 @@ _ONE_AT_A_TIME = threading.Lock()
 SHRUNK = (Status.OUT_OF_REACH, Status.CRAWLS, Status.STEP_TOO_SMALL, Status.NOT_CONVERGED)
 
 
-@dataclass
-class RunOutcome:
+class RunOutcome(Struct, frozen=False):
     """How a run ended. outcome: done, interrupted or failed; failure: (message, advice, time [s]).
 
     events : in the order of time. stopped_by : name of the event that ended the run. asked_to_stop : Ctrl-C came; also while the last

@@ -40,7 +40,7 @@ from nivel.judge.before.analyses import OF_STATICS, at_rest, beside_states
 from nivel.judge.before.refusals import faults_of, rough_motions
 from nivel.judge.during.stop import broken_function
 from nivel.kernels.solve.saddle import LEFT_OUT
-from nivel.lazy import dataclass, field, replace
+from nivel.lazy import Struct, field, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.analyses import StaticsSettings
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
@@ -66,8 +66,7 @@ UNLOADED = 10.0
 NOT_JUDGED = -1
 
 
-@dataclass
-class Walk:
+class Walk(Struct, frozen=False):
     """The equilibria of a machine from `start` on: where their frames go, and what is known of the path so far. ended : (message, advice)
     of a failure. rests : the equilibria, and the angles of joints that are followed in each."""
 

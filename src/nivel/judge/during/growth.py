@@ -20,7 +20,7 @@ from nivel.integrate.loop.run import DONE_STEPS, TAKEN, TIME, WAIT, Run
 from nivel.judge.during.stop import Status
 from nivel.kernels.core.status import OK
 from nivel.kernels.output.observe import observe
-from nivel.lazy import Struct, dataclass
+from nivel.lazy import Struct
 from nivel.machine.units.tree import Node
 from nivel.system.layout import reported
 from nivel.system.system import Array, System
@@ -90,8 +90,7 @@ OUT_OF_REACH, OFTEN, TIMES = 1e8, 2_000, 20
 SOON = 2
 
 
-@dataclass
-class Pace:
+class Pace(Struct, frozen=False):
     """Steps and time [s] of a run when it was looked at last."""
 
     steps: int = 0

@@ -6,15 +6,14 @@ from typing import Any, Final
 from nivel.elements.circuits import COMPONENTS
 from nivel.elements.circuits.component import SENSING
 from nivel.elements.circuits.symbol import LETTER, Symbol, box
-from nivel.lazy import dataclass, field, replace
+from nivel.lazy import Struct, field, replace
 
 HIGHEST: Final = 5e5  # Pa; a tank of a constant pressure above is a supply, others have a symbol at each of their pins
 VALUE: Final = "000.0 bar"  # room for a pressure
 LETTERS: Final = 22  # of a name that are shown
 
 
-@dataclass
-class Part:
+class Part(Struct, frozen=False):
     """One symbol. lines : the node at each of its pins. words : what is said below its name, each with the result variable of a pressure
     or with "". row : from above; column : from the left; x, y : of its middle [px]."""
 
@@ -45,8 +44,7 @@ class Part:
         return LETTER * max(len(self.label), *below, 0)
 
 
-@dataclass
-class Circuit:
+class Circuit(Struct, frozen=False):
     """Parts. drains : nodes that are drawn as a tank at every pin. values : result variables of the pressures of volumes, which are lines
     alone. gases : drains of gas, which are drawn as exhausts."""
 

@@ -5,7 +5,7 @@ has pins in several channels, a vertical line beside a column joins its tracks. 
 from collections.abc import Iterator
 
 from nivel.elements.circuits.symbol import LETTER
-from nivel.lazy import dataclass, field
+from nivel.lazy import Struct, field
 from nivel.looks.circuit.parts import VALUE, Circuit, Part
 
 TRACK, LANE, MARGIN, EDGE = 19.0, 11.0, 14.0, 10.0  # [px] between tracks and lanes; above and below tracks; around all
@@ -14,8 +14,7 @@ APART = 7.0  # least distance of vertical lines
 JOG = 5.0  # length of a line before it steps aside
 
 
-@dataclass
-class Pin:
+class Pin(Struct, frozen=False):
     """Where a line meets a symbol: x at the symbol and beside it, y, and the channel it leads into. up : whether it leads up."""
 
     node: str
@@ -33,8 +32,7 @@ class Pin:
         return self.x + self.aside
 
 
-@dataclass
-class Line:
+class Line(Struct, frozen=False):
     """A polyline of a node, dashed where no fluid flows."""
 
     node: str
@@ -42,8 +40,7 @@ class Line:
     dashed: bool
 
 
-@dataclass
-class Label:
+class Label(Struct, frozen=False):
     """The name and pressure of a node: lower left corner, width; the line below it, where it is beside that of its node."""
 
     node: str
@@ -53,8 +50,7 @@ class Label:
     leader: Line | None = None
 
 
-@dataclass
-class Drawing:
+class Drawing(Struct, frozen=False):
     """All that is drawn beside the symbols. tanks : x, y, whether above its pin, node. dots : where lines of a node meet."""
 
     wide: float

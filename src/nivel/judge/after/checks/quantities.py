@@ -224,8 +224,7 @@ def means(run: Run, estimate: Estimate, name: str) -> Means | None:
     """Those of undamped beams, by the rates in frames of both runs: steps follow the motion, and not the vibrations that nothing ends."""
     if name not in RATES or all(beam.damping for beam in run.machine.beams):
         return None
-    assert run.second is not None
-    second = run.second.result
+    second = run.finer.result
     here, there = common_frames(run.result.time, second.time)
     rate = RATES[name]
     if len(here) < 3 or rate not in run.result.variables or rate not in second.variables:
@@ -241,8 +240,7 @@ def means(run: Run, estimate: Estimate, name: str) -> Means | None:
 
 def errors_apart(run: Run, estimate: Estimate, name: str, spans: tuple[tuple[float, float], ...]) -> Array:
     """Errors in the frames that both runs have outside some spans of time and the frames beside them."""
-    assert run.second is not None
-    time, second = run.result.time, run.second.result
+    time, second = run.result.time, run.finer.result
     here, there = common_frames(time, second.time)
     within = np.zeros(len(time), dtype=bool)
     for first, last in spans:

@@ -6,6 +6,7 @@ from html import escape
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
+from nivel import known
 from nivel.elements.joints.joint import Joint
 from nivel.errors import Fault, ModelError, retold
 from nivel.files.outline import Known
@@ -16,20 +17,6 @@ from nivel.files.target import write_file
 from nivel.files.values import elements_named, replaced, section_of_element, value_at, whole_path, with_values
 from nivel.files.writer import write_machine
 from nivel.judge.before.unusual import remarks
-from nivel.known import (
-    AnyFluid,
-    Assembly,
-    Beam,
-    ControlBlock,
-    Coupling,
-    Driver,
-    Event,
-    Force,
-    HydraulicComponent,
-    Input,
-    Sensor,
-    State,
-)
 from nivel.lazy import Struct, nivel, replace
 from nivel.machine.bodies.body import Body
 from nivel.machine.core.element import Marker
@@ -82,19 +69,21 @@ class Elements:
     _prefix = ""
 
     bodies: Section[Body] = Section("body", "Bodies by name.")
-    beams: Section[Beam] = Section("beam", "Beams by name.")
+    beams: Section[known.Beam] = Section("beam", "Beams by name.")
     markers: Section[Marker] = Section("marker", "Markers by name.")
     joints: Section[Joint] = Section("joint", "Joints by name.")
-    couplings: Section[Coupling] = Section("coupling", "Couplings by name: gears, belts, racks and linear couplings.")
-    drivers: Section[Driver] = Section("driver", "Drivers by name.")
-    forces: Section[Force] = Section("force", "Forces by name, of all types.")
-    fluids: Section[AnyFluid] = Section("fluid", "Fluids by name.")
-    hydraulics: Section[HydraulicComponent] = Section("component", "Components of hydraulic circuits by name.")
-    inputs: Section[Input] = Section("input", "Inputs by name.")
-    states: Section[State] = Section("state", "States beside the motion, by name.")
-    control: Section[ControlBlock] = Section("block", "Blocks of the control by name.")
-    sensors: Section[Sensor] = Section("sensor", "Sensors by name.")
-    events: Section[Event] = Section("event", "Events by name.")
+    couplings: Section[known.Coupling] = Section(
+        "coupling", "Couplings by name: gears, belts, racks and linear couplings."
+    )
+    drivers: Section[known.Driver] = Section("driver", "Drivers by name.")
+    forces: Section[known.Force] = Section("force", "Forces by name, of all types.")
+    fluids: Section[known.AnyFluid] = Section("fluid", "Fluids by name.")
+    hydraulics: Section[known.HydraulicComponent] = Section("component", "Components of hydraulic circuits by name.")
+    inputs: Section[known.Input] = Section("input", "Inputs by name.")
+    states: Section[known.State] = Section("state", "States beside the motion, by name.")
+    control: Section[known.ControlBlock] = Section("block", "Blocks of the control by name.")
+    sensors: Section[known.Sensor] = Section("sensor", "Sensors by name.")
+    events: Section[known.Event] = Section("event", "Events by name.")
 
 
 class Subsystem(Struct, Elements, repr=False):
@@ -104,7 +93,7 @@ class Subsystem(Struct, Elements, repr=False):
     """
 
     record: MachineRecord
-    assembly: Assembly
+    assembly: known.Assembly
 
     @property
     def prefix(self) -> str:

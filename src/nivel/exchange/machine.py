@@ -6,20 +6,8 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.errors import Fault, refuse
+from nivel.exchange import bodies as words
 from nivel.exchange import joint_forces
-from nivel.exchange.bodies import (
-    MASSLESS,
-    between,
-    carried,
-    elementary_turn,
-    inertia_about,
-    lumped,
-    marker_frame,
-    marker_on,
-    move_to,
-    offset,
-    possible,
-)
 from nivel.exchange.contacts import contacts_of, meet
 from nivel.exchange.looks import Drawing
 from nivel.exchange.mechanism import MOST_LINKS, WORLD, Connection, Frame, Inertial, Mechanism
@@ -38,12 +26,12 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
     mechanism.file = file
     _check(mechanism)
     refuse(mechanism.faults)
-    offset(mechanism)
+    words.offset(mechanism)
     starts = joint_forces.start_values(mechanism)
     if _is_tree(mechanism) and _has_free_root(mechanism):  # which the assembly would turn
         for each in mechanism.connections:
             if each.name in starts:
-                move_to(mechanism, each, starts[each.name])
+                words.move_to(mechanism, each, starts[each.name])
     meet(mechanism, drawing)
     data: dict[str, Any] = {"name": _title(mechanism.name)}
     bodies, looks_of_ground = _bodies(mechanism, drawing)
@@ -62,8 +50,10 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
         coupling = joint_forces.coupling_of(each, mechanism)
         if coupling is not None:
             couplings[mechanism.names.new(f"{each.name}_mimic", "coupling")] = coupling
-        moved = carried(mechanism, each)
-        effective = inertia_about(mechanism, moved, each.point, each.axes[0] if each.coordinate == "angle" else None)
+        moved = words.carried(mechanism, each)
+        effective = words.inertia_about(
+            mechanism, moved, each.point, each.axes[0] if each.coordinate == "angle" else None
+        )
         at_joint[each.name] = effective + each.armature
         if not each.lumps:
             joint = mechanism.names.name("joint", each.name)
@@ -74,7 +64,7 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
             forces[mechanism.names.new(f"{each.name}_{suffix}", "force")] = force
     for span in mechanism.spans:
         joints[mechanism.names.name("joint", span.name)] = joint_forces.span_joint(span, mechanism)
-        at_joint[span.name] = between(mechanism, [link for link, _ in span.ends])
+        at_joint[span.name] = words.between(mechanism, [link for link, _ in span.ends])
     for name, terms in mechanism.sums:
         of = {name: joint_forces.coordinate_of(each, mechanism) for name, each in mechanism.measured.items()}
         coupling = {
@@ -96,7 +86,7 @@ def machine_of(mechanism: Mechanism, file: str, drawing: Drawing) -> Translation
         forces[mechanism.names.new(rope.name, "force")] = joint_forces.rope_force(rope, mechanism)
     for link, point, vector in mechanism.lifts:
         if mechanism.groups[link].first != WORLD:
-            at = marker_frame(mechanism, link) @ Frame(origin=point)
+            at = words.marker_frame(mechanism, link) @ Frame(origin=point)
             force = {"type": "force", "body": mechanism.body(link), "position": triple(at.origin)}
             forces[mechanism.names.new(f"{link}_gravcomp", "force")] = force | {
                 "vector": [number(each) for each in vector]
@@ -203,7 +193,7 @@ def _bodies(mechanism: Mechanism, drawing: Drawing) -> tuple[dict[str, Any], lis
         drawn = [
             shape
             for name in group.links
-            for shape in drawing.shapes(mechanism.links[name], marker_frame(mechanism, name), mechanism.notes)
+            for shape in drawing.shapes(mechanism.links[name], words.marker_frame(mechanism, name), mechanism.notes)
         ]
         if first == WORLD:
             on_ground = drawn
@@ -213,14 +203,14 @@ def _bodies(mechanism: Mechanism, drawing: Drawing) -> tuple[dict[str, Any], lis
                         "mass of links on the ground, which does not move", name, mechanism.links[name].line
                     )
             continue
-        link, inertial = mechanism.links[first], lumped(mechanism, group)
+        link, inertial = mechanism.links[first], words.lumped(mechanism, group)
         if inertial is None:
             if first in loose:
                 mechanism.notes.leave("links without mass and without joints", link.name, link.line)
                 continue
             inertial = _light(mechanism, first)
         else:
-            inertial = possible(inertial, link, mechanism)
+            inertial = words.possible(inertial, link, mechanism)
         body: dict[str, Any] = {"position": triple(link.place.origin), **turn(link.place.axes)}
         body |= {"mass": inertial.mass, "centre_of_mass": triple(inertial.centre), "inertia": _inertia(inertial)}
         body = {key: value for key, value in body.items() if key not in ("position", "centre_of_mass") or any(value)}
@@ -240,16 +230,16 @@ def _light(mechanism: Mechanism, first: str) -> Inertial:
         name
         for each in mechanism.connections
         if mechanism.groups[each.bodies[0]].first == first and not each.lumps
-        for name in carried(mechanism, each)
+        for name in words.carried(mechanism, each)
     ]
-    mass = inertia_about(mechanism, beyond, np.zeros(3), None)
+    mass = words.inertia_about(mechanism, beyond, np.zeros(3), None)
     if mass <= 0.0:
         message = "the link moves and has no mass; give it `<inertial>`, or connect it by a fixed joint"
         mechanism.fault(link.line, f'<link name="{link.name}">', message)
         mass = 1.0
     else:
         mechanism.notes.change(LIGHT, link.name, link.line)
-    return Inertial(MASSLESS * mass, np.zeros(3), MASSLESS * mass * np.eye(3))
+    return Inertial(words.MASSLESS * mass, np.zeros(3), words.MASSLESS * mass * np.eye(3))
 
 
 def _inertia(inertial: Inertial) -> Any:
@@ -284,7 +274,7 @@ def _joint_markers(each: Connection, mechanism: Mechanism) -> list[dict[str, Any
     else:
         first = Frame(frame_from_axes(each.axes[0]), each.point)
         if each.kind == "revolute":
-            second = Frame(first.axes @ elementary_turn(np.array([0.0, 0.0, 1.0]), each.placed), each.point)
+            second = Frame(first.axes @ words.elementary_turn(np.array([0.0, 0.0, 1.0]), each.placed), each.point)
         else:
             second = Frame(first.axes, each.point + each.placed * first.axes[:, 2])
         frames = [first, second]
@@ -301,8 +291,8 @@ def _markers(mechanism: Mechanism) -> dict[str, Any]:
     out = {}
     for name, group in mechanism.groups.items():
         if name not in (WORLD, group.first):
-            out[mechanism.names.name("marker", name)] = marker_on(name, Frame(), mechanism)
+            out[mechanism.names.name("marker", name)] = words.marker_on(name, Frame(), mechanism)
             mechanism.notes.change("links on fixed joints are parts of their bodies, their frames are markers", name)
     for name, link, inside in mechanism.sites:
-        out[mechanism.names.name("marker", name)] = marker_on(link, inside, mechanism)
+        out[mechanism.names.name("marker", name)] = words.marker_on(link, inside, mechanism)
     return out

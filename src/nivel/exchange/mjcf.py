@@ -12,18 +12,7 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.errors import Fault, ModelError
-from nivel.exchange.mechanism import (
-    MOST_LINKS,
-    WORLD,
-    Actuator,
-    Connection,
-    Frame,
-    Inertial,
-    Link,
-    Look,
-    Mechanism,
-    Terms,
-)
+from nivel.exchange import mechanism as parts
 from nivel.exchange.mjcf_contacts import CLIP, hardness, kind_of, read_contacts
 from nivel.exchange.mjcf_equalities import axes_of, read_equalities
 from nivel.exchange.mjcf_tendons import Tendons
@@ -57,7 +46,7 @@ def read_mjcf(
     contacts: str = "all",
     keyframe: str | None = None,
     include_paths: Sequence[Path] = (),
-) -> Mechanism:
+) -> parts.Mechanism:
     """The mechanism of an MJCF file. base : `fixed` welds free bodies to the world; default as the file says.
     contacts : `all`, `floor` or `none`. keyframe : name or number of the one at which it starts. include_paths : folders beside that of
     the model from which files are read. Raises ModelError."""
@@ -72,7 +61,7 @@ def read_mjcf(
 
 def mechanism_here(
     path: Path, file: str, name: str, base: str | None, contacts: str, keyframe: str | None, found: dict[str, bytes]
-) -> Mechanism:
+) -> parts.Mechanism:
     """The same in this process, which a damaged file may end. found : included files that are not where the file says, by that name."""
     mj = needed("mujoco", "models in MJCF need")
     said: list[warnings.WarningMessage] = []
@@ -85,7 +74,7 @@ def mechanism_here(
     off = {what for what, flag in OFF.items() if model.opt.disableflags & int(getattr(mj.mjtDisableBit, flag))}
     weightless = bool(model.opt.disableflags & int(mj.mjtDisableBit.mjDSBL_GRAVITY))
     x, y, z = (0.0, 0.0, 0.0) if weightless else model.opt.gravity.tolist()
-    mechanism = Mechanism(name, "MJCF", (x, y, z))
+    mechanism = parts.Mechanism(name, "MJCF", (x, y, z))
     for each in said:
         mechanism.notes.change(f"MuJoCo: {' '.join(str(each.message).split())}")
     mechanism.step = float(model.opt.timestep)
@@ -152,8 +141,8 @@ class _Sources:
         if document.faults:
             return
         for element, count in _repeated(document.root, 1):
-            if count > MOST_LINKS:
-                document.fault(element, f"{count} repetitions; up to {MOST_LINKS} are read")
+            if count > parts.MOST_LINKS:
+                document.fault(element, f"{count} repetitions; up to {parts.MOST_LINKS} are read")
         pending = [document.root]
         while pending:
             element = pending.pop()
@@ -203,9 +192,9 @@ def _repeated(element: Element, times: int) -> Iterator[tuple[Element, int]]:
 class _Reader:
     """The parts of a compiled model; `d` holds the kinematics of qpos0."""
 
-    def __init__(self, mj: Any, m: Any, d: Any, mechanism: Mechanism, off: set[str]) -> None:
+    def __init__(self, mj: Any, m: Any, d: Any, mechanism: parts.Mechanism, off: set[str]) -> None:
         self.mj, self.m, self.d, self.mechanism, self.off = mj, m, d, mechanism, off
-        self.joints: dict[int, Connection] = {}
+        self.joints: dict[int, parts.Connection] = {}
         self.tendons = Tendons(m, d, mechanism, self.joints, self.body)
 
     def read(self, base: str | None) -> None:
@@ -226,10 +215,10 @@ class _Reader:
 
     def body(self, b: int) -> str:
         """The name of the link of a body."""
-        return WORLD if b == 0 else self.m.body(b).name or f"body_{b}"
+        return parts.WORLD if b == 0 else self.m.body(b).name or f"body_{b}"
 
-    def _frame(self, at: Any, axes: Any) -> Frame:
-        return Frame(np.array(axes, dtype=float).reshape(3, 3), np.array(at, dtype=float))
+    def _frame(self, at: Any, axes: Any) -> parts.Frame:
+        return parts.Frame(np.array(axes, dtype=float).reshape(3, 3), np.array(at, dtype=float))
 
     def _body(self, b: int) -> None:
         m, d = self.m, self.d
@@ -237,14 +226,16 @@ class _Reader:
         inertial = None
         if m.body_mass[b] > 0.0:
             own = axes_of(self.mj, m.body_iquat[b])
-            inertial = Inertial(float(m.body_mass[b]), m.body_ipos[b].copy(), own @ np.diag(m.body_inertia[b]) @ own.T)
+            inertial = parts.Inertial(
+                float(m.body_mass[b]), m.body_ipos[b].copy(), own @ np.diag(m.body_inertia[b]) @ own.T
+            )
         name = self.body(b)
         looks = [
             look
             for g in range(m.body_geomadr[b], m.body_geomadr[b] + m.body_geomnum[b])
             if (look := self._look(g, name))
         ]
-        self.mechanism.links[name] = Link(name, place, inertial, looks)
+        self.mechanism.links[name] = parts.Link(name, place, inertial, looks)
         if m.body_gravcomp[b] and inertial is not None and any(self.mechanism.gravity):
             lift = -float(m.body_gravcomp[b]) * inertial.mass * np.array(self.mechanism.gravity)
             self.mechanism.lifts.append((name, inertial.centre, lift))
@@ -255,16 +246,18 @@ class _Reader:
         before, first = self.body(int(m.body_parentid[b])), int(m.body_jntadr[b])
         joints = range(first, first + int(m.body_jntnum[b]))
         if not joints:
-            self.mechanism.connections.append(Connection(f"{name}_weld", "fixed", (before, name), np.zeros(3)))
+            self.mechanism.connections.append(parts.Connection(f"{name}_weld", "fixed", (before, name), np.zeros(3)))
         for j in joints:
             if m.jnt_type[j] == FREE:
                 if base == "fixed":
-                    self.mechanism.connections.append(Connection(f"{name}_base", "fixed", (WORLD, name), np.zeros(3)))
+                    self.mechanism.connections.append(
+                        parts.Connection(f"{name}_base", "fixed", (parts.WORLD, name), np.zeros(3))
+                    )
                 continue
             after = name
             if j != joints[-1]:
                 after = f"{name}_{self._joint_name(j)}"
-                self.mechanism.links[after] = Link(after, self._frame(self.d.xanchor[j], self.d.xmat[b]))
+                self.mechanism.links[after] = parts.Link(after, self._frame(self.d.xanchor[j], self.d.xmat[b]))
             self.joints[j] = self._joint(j, before, after)
             self.mechanism.connections.append(self.joints[j])
             before = after
@@ -272,10 +265,10 @@ class _Reader:
     def _joint_name(self, j: int) -> str:
         return self.m.joint(j).name or f"joint_{j}"
 
-    def _joint(self, j: int, before: str, after: str) -> Connection:
+    def _joint(self, j: int, before: str, after: str) -> parts.Connection:
         m, notes = self.m, self.mechanism.notes
         name, v, q = self._joint_name(j), int(m.jnt_dofadr[j]), int(m.jnt_qposadr[j])
-        joint = Connection(name, KINDS[int(m.jnt_type[j])], (before, after), self.d.xanchor[j].copy())
+        joint = parts.Connection(name, KINDS[int(m.jnt_type[j])], (before, after), self.d.xanchor[j].copy())
         if m.jnt_type[j] == BALL:
             given = (m.dof_armature[v], m.dof_damping[v], m.jnt_stiffness[j], m.dof_frictionloss[v], m.jnt_limited[j])
             for value, what in zip(given, ("armature", "damping", "stiffness", "friction", "limits"), strict=True):
@@ -311,7 +304,7 @@ class _Reader:
         b = 2.0 / (most * max(given, 2.0 * float(m.opt.timestep))) if given > 0.0 else -float(m.dof_solref[v][1]) / most
         return (1.0 - least) / least * float(m.dof_invweight0[v]) / b if b > 0.0 else 0.0
 
-    def _look(self, g: int, name: str) -> Look | None:
+    def _look(self, g: int, name: str) -> parts.Look | None:
         if self.m.geom_group[g] >= SHOWN_GROUPS:
             return None
         look = self.solid(g)
@@ -320,7 +313,7 @@ class _Reader:
             return None
         return look
 
-    def solid(self, g: int) -> Look | None:
+    def solid(self, g: int) -> parts.Look | None:
         """The solid of a geom in its body; None of types that have none."""
         m = self.m
         size, material = m.geom_size[g], int(m.geom_matid[g])
@@ -333,12 +326,12 @@ class _Reader:
             case "sphere" | "capsule" | "cylinder" | "box" | "ellipsoid" | "plane" as kind:
                 factors = {"sphere": (1.0,), "box": (2.0, 2.0, 2.0), "ellipsoid": (1.0, 1.0, 1.0), "plane": ()}
                 sizes = zip(factors.get(kind, (1.0, 2.0)), size.tolist(), strict=False)
-                return Look(kind, sizes=tuple(factor * each for factor, each in sizes), **common)
+                return parts.Look(kind, sizes=tuple(factor * each for factor, each in sizes), **common)
             case "mesh":
                 k = int(m.geom_dataid[g])
                 vertices = m.mesh_vert[m.mesh_vertadr[k] : m.mesh_vertadr[k] + m.mesh_vertnum[k]].astype(float)
                 faces = m.mesh_face[m.mesh_faceadr[k] : m.mesh_faceadr[k] + m.mesh_facenum[k]]
-                return Look("surface", surface=(vertices, faces.astype(np.uint32)), **common)
+                return parts.Look("surface", surface=(vertices, faces.astype(np.uint32)), **common)
         return None
 
     def _site(self, s: int) -> None:
@@ -352,7 +345,7 @@ class _Reader:
         m, notes, mj = self.m, self.mechanism.notes, self.mj
         name, gear, constant = m.actuator(a).name or f"actuator_{a}", float(m.actuator_gear[a, 0]), 0.0
         where, at = int(m.actuator_trntype[a]), int(m.actuator_trnid[a, 0])
-        terms: Terms | None = None
+        terms: parts.Terms | None = None
         if where in JOINT_TRANSMISSIONS:
             joint = self.joints.get(at)
             terms = ((joint.name, gear),) if joint is not None and joint.coordinate else None
@@ -375,7 +368,7 @@ class _Reader:
         laws = m.actuator_biasprm[a][:3] if bias == "affine" else np.zeros(3)
         fixed = gear * constant
         gains, biases = ((float(e[0] + e[1] * fixed), float(e[1]), float(e[2])) for e in (numbers, laws))
-        made = Actuator(name, terms, gains, biases)
+        made = parts.Actuator(name, terms, gains, biases)
         if dynamics != "none":
             made.time = 0.0 if dynamics == "integrator" else float(m.actuator_dynprm[a, 0])
         for given, of, key in (("ctrl", "ctrl", "control"), ("force", "force", "limit"), ("act", "act", "activation")):
@@ -387,7 +380,7 @@ class _Reader:
         self.mechanism.actuators.append(made)
 
 
-def _leave(m: Any, mechanism: Mechanism, *, without: bool) -> None:
+def _leave(m: Any, mechanism: parts.Mechanism, *, without: bool) -> None:
     """Note what no part of the reader has asked for."""
     notes = mechanism.notes
     for count, what in ((m.nflex, "flexible elements"), (m.nsensor, "sensors"), (m.nplugin, "plugins")):

@@ -26,13 +26,8 @@ from nivel.elements.joints.joint import Joint
 from nivel.files.substitution import NotRepresentableError, rewritten, same, substituted
 from nivel.lazy import Struct, field
 from nivel.machine.bodies.body import Body
+from nivel.machine.core import orientation as orientations
 from nivel.machine.core.element import Marker
-from nivel.machine.core.orientation import (
-    Orientation,
-    euler_parameters_from_matrix,
-    matrix_from_euler_parameters,
-    rotation_matrix,
-)
 from nivel.machine.core.placement import marker_frame, placement
 from nivel.machine.core.record import GROUND, Record
 from nivel.machine.core.vectors import Array
@@ -55,9 +50,9 @@ class Placement(Struct):
     reflection: Array
 
     @classmethod
-    def of(cls, position: Triple, orientation: Orientation | None, mirror: str) -> "Placement":
+    def of(cls, position: Triple, orientation: orientations.Orientation | None, mirror: str) -> "Placement":
         """As an assembly gives it; `mirror` is x, y, z or none."""
-        rotation = rotation_matrix(orientation)
+        rotation = orientations.rotation_matrix(orientation)
         nearest = np.round(rotation)
         rotation = np.where(np.abs(rotation - nearest) < _ROUND, nearest + 0.0, rotation)
         reflection = np.array([-1.0 if axis == mirror else 1.0 for axis in "xyz"])
@@ -113,11 +108,11 @@ class Placement(Struct):
         """An angular velocity or torque in the frame of a body that moves."""
         return triple(self.handedness * self.reflection * np.asarray(vector, dtype=float))
 
-    def body_frame(self, axes: Array) -> Orientation:
+    def body_frame(self, axes: Array) -> orientations.Orientation:
         """The frame of a body, from its axes (3, 3)."""
         return orientation_of(self.polar @ axes * self.reflection)
 
-    def axes(self, axes: Array, kept: Triple = AXIAL_Z, *, on_ground: bool) -> Orientation:
+    def axes(self, axes: Array, kept: Triple = AXIAL_Z, *, on_ground: bool) -> orientations.Orientation:
         """Axes (3, 3), columns in the frame of their body, which for `ground` is global."""
         flip = np.array(kept) if self.mirrored else np.ones(3)
         image = (self.polar if on_ground else np.diag(self.reflection)) @ axes
@@ -129,10 +124,10 @@ def by_rules(record: Any, **rules: Callable[[Any], Any]) -> dict[str, Any]:
     return {name: rule(value) for name, rule in rules.items() if (value := getattr(record, name, None)) is not None}
 
 
-def orientation_of(axes: Array) -> Orientation:
+def orientation_of(axes: Array) -> orientations.Orientation:
     """A rotation matrix (3, 3) as a record."""
-    w, x, y, z = (float(each) for each in euler_parameters_from_matrix(axes))
-    return Orientation(euler_parameters=(w, x, y, z))
+    w, x, y, z = (float(each) for each in orientations.euler_parameters_from_matrix(axes))
+    return orientations.Orientation(euler_parameters=(w, x, y, z))
 
 
 def triple(vector: Sequence[float] | Array) -> Triple:
@@ -246,7 +241,7 @@ class Scene(Struct, frozen=False):
             position, axes = self.beams[beam].frame_at(station)
         else:
             position, parameters = placement(self.bodies[body])
-            axes = matrix_from_euler_parameters(parameters)
+            axes = orientations.matrix_from_euler_parameters(parameters)
         inside = triple(axes.T @ (np.array(point) - position))
         return Marker(body=body, position=inside, orientation=orientation_of(axes.T))
 

@@ -20,16 +20,7 @@ from nivel.analysis.plan.plan import Plan, other_run
 from nivel.analysis.preparation.attributes import run_attributes, settings_in_json
 from nivel.analysis.progress.log import Listener, Progress
 from nivel.analysis.progress.pacing import terminable
-from nivel.analysis.run.attempt import (
-    TENTH,
-    Attempt,
-    Options,
-    SecondRun,
-    attempt,
-    header_of,
-    most_work,
-    resampled,
-)
+from nivel.analysis.run import attempt as attempts
 from nivel.analysis.run.dynamics import march
 from nivel.analysis.run.prepared_state import prepare
 from nivel.errors import ModelError, SolveError
@@ -85,7 +76,9 @@ class Try(Struct):
         return self.ended or self.verdicts.get(line, "green")
 
 
-def second_choice(first: Attempt, options: Options, *, judge: bool) -> tuple[Attempt, Trust | None]:
+def second_choice(
+    first: attempts.Attempt, options: attempts.Options, *, judge: bool
+) -> tuple[attempts.Attempt, Trust | None]:
     """The best choice and its trust report, where it is judged already. judge : there is a report."""
     finished = first.finished
     if not first.plan.is_open or finished.asked_to_stop or finished.outcome == "interrupted":
@@ -111,7 +104,7 @@ class Choices:
     """Other choices of a run, which together do no more than MOST_TIMES the work of the first one. judged : those that came to their end,
     with their reports; the first one at the start. left : work that the next ones may do."""
 
-    def __init__(self, plan: Plan, options: Options, judged: list[tuple[Attempt, Trust]]) -> None:
+    def __init__(self, plan: Plan, options: attempts.Options, judged: list[tuple[attempts.Attempt, Trust]]) -> None:
         assert plan.asked is not None
         self.plan, self.options, self.judged = plan, options, judged
         self.asked, first = plan.asked, judged[0][0]
@@ -119,15 +112,15 @@ class Choices:
         longer = (
             1.0 if plan.settings.tolerance is not None else max(1.0, plan.settings.step / self.asked.simulation.step)
         )
-        self.left = most_work(longer * _work_of(first), len(first.prepared.start))
+        self.left = attempts.most_work(longer * _work_of(first), len(first.prepared.start))
         self.share = first.finished.work / max(_work_of(first), 1)  # of a choice's work, before it is verified
 
     @property
-    def best(self) -> tuple[Attempt, Trust]:
+    def best(self) -> tuple[attempts.Attempt, Trust]:
         """The one whose report is best so far."""
         return min(self.judged, key=lambda each: _badness(each[1]))
 
-    def others(self) -> Iterator[Attempt]:
+    def others(self) -> Iterator[attempts.Attempt]:
         """They are made when they are asked for."""
         plan, asked, (first, trust) = self.plan, self.asked.simulation.model_fields_set, self.judged[0]
         if any(item.name == "branch" and item.verdict != "green" for item in trust.items):
@@ -146,11 +139,13 @@ class Choices:
         if (plan.settings.integrator, plan.settings.tolerance) != usual and not plan.machine.beams:
             yield from self._started(other_run(plan, FOR_STIFF), AT_LAST)
 
-    def _finer(self) -> Iterator[Attempt]:
+    def _finer(self) -> Iterator[attempts.Attempt]:
         """Second runs as results, as long as each is much better than the one before."""
         (last, report), before = self.judged[0], inf
         while _excess(report) < LESS * before and self.left > 0.0 and last.plan.settings.tolerance is not None:
-            plan = other_run(self.plan, self.plan.settings.integrator, tolerance=TENTH * last.plan.settings.tolerance)
+            plan = other_run(
+                self.plan, self.plan.settings.integrator, tolerance=attempts.TENTH * last.plan.settings.tolerance
+            )
             choice = None if plan is None else _verified_anew(last, plan, self.options)
             if choice is None:
                 return
@@ -160,7 +155,7 @@ class Choices:
                 return
             before, (last, report) = _excess(report), self.judged[-1]
 
-    def _shorter(self) -> Iterator[Attempt]:
+    def _shorter(self) -> Iterator[attempts.Attempt]:
         """Shorter fixed steps: as short as the lines that are not green ask for, the usual ones at first, and as work allows."""
         (last, report), before = self.judged[0], inf
         usual, order = self.asked.simulation.step, INTEGRATORS[self.plan.settings.integrator].order
@@ -177,7 +172,7 @@ class Choices:
                 return
             before, (last, report) = _excess(report), self.judged[-1]
 
-    def _started(self, plan: Plan | None, reason: str = "") -> Iterator[Attempt]:
+    def _started(self, plan: Plan | None, reason: str = "") -> Iterator[attempts.Attempt]:
         """A run of its own, in memory; none where the machine cannot be prepared for it."""
         if plan is None:
             return
@@ -188,36 +183,36 @@ class Choices:
             yield choice
 
 
-def _work_of(choice: Attempt) -> int:
+def _work_of(choice: attempts.Attempt) -> int:
     """Work of a run and of the one that verifies it."""
     return choice.finished.work + (choice.verified.finished.work if choice.verified is not None else 0)
 
 
-def _verified_anew(first: Attempt, plan: Plan, options: Options) -> Attempt | None:
+def _verified_anew(first: attempts.Attempt, plan: Plan, options: attempts.Options) -> attempts.Attempt | None:
     """The second run as the result of a run of this plan, with a third one that verifies it; None where that was not whole."""
     second = first.verified
     if second is None or second.ended or first.found is not None or second.finished.pace is None:
         return None
-    third = SecondRun(next(resampled(plan), plan), options.limit)
+    third = attempts.SecondRun(next(attempts.resampled(plan), plan), options.limit)
     try:
         third.leader.taken, third.leader.work = second.finished.pace[TAKEN].copy(), second.finished.work
         verified = third.wait(options.listener)
     finally:
         third.cancel()
-    return Attempt(plan, second.prepared, second.finished, second.result, second.frames, verified)
+    return attempts.Attempt(plan, second.prepared, second.finished, second.result, second.frames, verified)
 
 
-def _run(plan: Plan, options: Options) -> Attempt | None:
+def _run(plan: Plan, options: attempts.Options) -> attempts.Attempt | None:
     """A run of its own, in memory; None where the machine cannot be prepared for it."""
     try:
         build(run_entries(plan), options.listener)
         options.listener.say(f"once more with {in_words(plan)}")
-        return attempt(plan, Memory(plan.settings.frames + 1), options, prepare(plan.methods))
+        return attempts.attempt(plan, Memory(plan.settings.frames + 1), options, prepare(plan.methods))
     except (ModelError, SolveError):
         return None
 
 
-def _instead_of_failed(first: Attempt, options: Options) -> Attempt:
+def _instead_of_failed(first: attempts.Attempt, options: attempts.Options) -> attempts.Attempt:
     """The run with another choice, where the first one failed for its steps and that one comes to its end: radau, else fixed steps, which
     pass a law that jumps to and fro and shrinks every chosen step."""
     plan = first.plan
@@ -242,7 +237,7 @@ def in_words(plan: Plan) -> str:
     return f"{settings.integrator}, {by.replace('e-0', 'e-')}"
 
 
-def _why_not(choice: Attempt) -> str:
+def _why_not(choice: attempts.Attempt) -> str:
     failure = choice.finished.failure
     return "failed" if failure is not None else "was given up, as it took too much work"
 
@@ -264,7 +259,7 @@ def _badness(trust: Trust) -> tuple[int, int, float]:
     return lines.count("red"), lines.count("amber"), trust.accuracy_estimate or 0.0
 
 
-def _tried(choice: Attempt, trust: Trust) -> Try:
+def _tried(choice: attempts.Attempt, trust: Trust) -> Try:
     names = dict.fromkeys(item.name for item in trust.items)
     worst = {name: [item.verdict for item in trust.items if item.name == name] for name in names}
     order = ("red", "amber", "green")
@@ -314,14 +309,14 @@ def simulate(
     listener.say("preparing")
     prepared = prepare(plan.methods)
     prepare_seconds = time.perf_counter() - begin
-    options = Options(source, verify, verify_limit, listener)
+    options = attempts.Options(source, verify, verify_limit, listener)
     with terminable():
-        first = attempt(plan, sink, options, prepared)
+        first = attempts.attempt(plan, sink, options, prepared)
         best, trust = second_choice(first, options, judge=judge)
         if best is not first:
             sink.discard()
             sink = Memory(best.plan.settings.frames + 1) if out is None else Store(out, force)
-            sink.begin(header_of(best.plan, best.prepared, source))
+            sink.begin(attempts.header_of(best.plan, best.prepared, source))
             sink.take(best.frames)
         seconds = {"prepare_seconds": prepare_seconds, "compile_seconds": compile_seconds}
         return close_run(sink, best.run, seconds, judge=judge, trust=trust)

@@ -16,19 +16,9 @@ import xarray
 from nivel.analysis.progress.journal import Journal
 from nivel.analysis.progress.log import Listener, Log, bar_of
 from nivel.analysis.progress.pacing import interruptible
+from nivel.analysis.sweep import processes as engines
 from nivel.analysis.sweep.outputs import Task, usual_names
 from nivel.analysis.sweep.patched import WORTH_FORMULAS
-from nivel.analysis.sweep.processes import (
-    Group,
-    Job,
-    client_of,
-    grouped,
-    next_of,
-    run_group,
-    run_in_processes,
-    run_on_cluster,
-    threads_of,
-)
 from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, collected, kept_of, look_for_lanes, row_of, run_of
 from nivel.analysis.sweep.variant_runs import Ran, Values, VariantRuns, formulas_for
 from nivel.analysis.sweep.variants import ROW, Variants
@@ -75,7 +65,9 @@ def sweep(
     returns what was computed; the rest is `not run`. Raises ModelError where no variant could start.
     """
     values = variants.values
-    jobs: list[Job] = [(k, tasks[0], values[k]) if len(tasks) == 1 else (k, tasks[k], {}) for k in range(len(values))]
+    jobs: list[engines.Job] = [
+        (k, tasks[0], values[k]) if len(tasks) == 1 else (k, tasks[k], {}) for k in range(len(values))
+    ]
     runs: list[VariantRun] = [VariantRun(NOT_RUN)] * len(jobs)
     before = {number: run_of(row) for number, row in journal.rows.items()} if journal is not None else {}
     for number, run in before.items():
@@ -116,27 +108,27 @@ def sweep(
     return collected(variants, runs, tasks[0].outputs, attributes)
 
 
-def _compute(jobs: Sequence[Job], engine: Engine, keep: Heard) -> int:
+def _compute(jobs: Sequence[engines.Job], engine: Engine, keep: Heard) -> int:
     """Compute the variants, and tell of each. Returns the number of processes that took part."""
     with ExitStack() as stack:
-        client = stack.enter_context(client_of(engine.scheduler)) if engine.scheduler else None
+        client = stack.enter_context(engines.client_of(engine.scheduler)) if engine.scheduler else None
         interrupted = stack.enter_context(interruptible())
-        left: Sequence[Group] = grouped(jobs)
+        left: Sequence[engines.Group] = engines.grouped(jobs)
         if client is None and not engine.apart:
             left = _run_here(left, keep, interrupted, engine.processes)
         if not left or interrupted():
             return 1
         found = (
-            run_on_cluster([job for group in left for job in group], client)
+            engines.run_on_cluster([job for group in left for job in group], client)
             if client is not None
-            else run_in_processes(left, engine.processes, here=not engine.apart)
+            else engines.run_in_processes(left, engine.processes, here=not engine.apart)
         )
         with closing(found):
             for number, run in found:
                 keep(number, run)
                 if interrupted():
                     break
-        return engine.processes if client is None else threads_of(client)
+        return engine.processes if client is None else engines.threads_of(client)
 
 
 def _subject(
@@ -156,11 +148,13 @@ def _subject(
     return Sweep(outcome=outcome, variants=seen, by="checks of each", without="not all of them were checked")
 
 
-def _run_here(groups: Sequence[Group], keep: Heard, interrupted: Callable[[], bool], processes: int) -> Sequence[Group]:
+def _run_here(
+    groups: Sequence[engines.Group], keep: Heard, interrupted: Callable[[], bool], processes: int
+) -> Sequence[engines.Group]:
     """Run the first variants, all of them where they are quick. Returns those that are left for processes."""
     for at, group in enumerate(groups):
         begin = perf_counter()
-        for number, run in run_group(group):
+        for number, run in engines.run_group(group):
             if run.outcome == NOT_RUN:  # Ctrl-C came
                 return ()
             keep(number, run)
@@ -204,7 +198,7 @@ def run_batch(
 
         def work(_: int) -> None:
             runs = VariantRuns(base, patches)
-            while not interrupted() and (first := next_of(left)) is not None:
+            while not interrupted() and (first := engines.next_of(left)) is not None:
                 for number, ran in enumerate(runs.run_all(rows[first : first + lane_count()]), first):
                     kept[number] = kept_of(ran, names)
                     done[0] += 1

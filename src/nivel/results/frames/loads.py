@@ -14,21 +14,7 @@ from nivel.machine.core.vectors import Array
 from nivel.machine.settings.values import settings_of
 from nivel.machine.study.any_quantity import AnyQuantity, another_measure, si
 from nivel.machine.units.quantity import asked
-from nivel.results.curve import (
-    TOLD,
-    Curve,
-    Number,
-    curve,
-    curve_of,
-    integral,
-    integral_of_magnitude,
-    largest,
-    mean,
-    peak,
-    probed,
-    turning_values,
-    unseen_between_frames,
-)
+from nivel.results import curve as curves
 
 
 def reactions(result: Result) -> "xarray.Dataset":
@@ -42,9 +28,9 @@ def reactions(result: Result) -> "xarray.Dataset":
     values, lacks = {}, []
     for word, unit in (("force", "N"), ("torque", "N m")):
         parts = result.array(f"joint_{word}")
-        sizes = with_probes(result, f"joint_{word}", curve(result.time, np.linalg.norm(parts, axis=2)))
-        highest = largest(sizes)
-        square = mean(curve(result.time, np.sum(parts**2, axis=2)))
+        sizes = with_probes(result, f"joint_{word}", curves.curve(result.time, np.linalg.norm(parts, axis=2)))
+        highest = curves.largest(sizes)
+        square = curves.mean(curves.curve(result.time, np.sum(parts**2, axis=2)))
         lacks += open_numbers(sizes, highest, f"peak {word} of {{}}", result.coordinates["joint"], unit)
         values[f"peak_{word}"] = (("joint",), highest.value, {"units": unit})
         values[f"peak_{word}_time"] = (("joint",), highest.time, {"units": "s"})
@@ -53,18 +39,18 @@ def reactions(result: Result) -> "xarray.Dataset":
     return xarray.Dataset(values, coords={"joint": list(result.coordinates["joint"])}, attrs=attributes)
 
 
-def with_probes(result: Result, variable: str, of: Curve) -> Curve:
+def with_probes(result: Result, variable: str, of: curves.Curve) -> curves.Curve:
     """A curve made of all numbers of a variable, a column for each of its elements, with what was seen of these between frames."""
-    off = probed(result.attributes).get(variable)
+    off = curves.probed(result.attributes).get(variable)
     if off is None:
         return of
     return of.doubted(np.linalg.norm(np.asarray(off, dtype=float).reshape(of.value.shape[1], -1), axis=1))
 
 
-def open_numbers(of: Curve, found: Number, words: str, names: Sequence[str], units: str) -> list[str]:
+def open_numbers(of: curves.Curve, found: curves.Number, words: str, names: Sequence[str], units: str) -> list[str]:
     """What is open of numbers of the columns of a curve, in words: the worst of them."""
     share = found.doubt / max(float(np.max(np.abs(of.value), initial=0.0)), 1e-300)
-    if not len(share) or not (open_ones := of.is_told(found.doubt) & (share > TOLD)).any():
+    if not len(share) or not (open_ones := of.is_told(found.doubt) & (share > curves.TOLD)).any():
         return []
     k = int(np.argmax(np.where(open_ones, share, 0.0)))
     return [f"{words.format(names[k])} between frames, which may be off by {found.doubt[k]:.2g} {units}"]
@@ -79,12 +65,12 @@ def powers(result: Result, period: float | str | None = None) -> "xarray.Dataset
     names = [name for name in result.variables if name.endswith(".power")]
     if not names or not len(result.time):
         raise ModelError("the result has no power of drivers or forces")
-    seen = probed(result.attributes)
-    history = curve(result.time, np.column_stack([result.array(name) for name in names]))
+    seen = curves.probed(result.attributes)
+    history = curves.curve(result.time, np.column_stack([result.array(name) for name in names]))
     history = history.doubted(np.array([seen[name][0] if name in seen else 0.0 for name in names]))
     dims, elements = ("element",), [name.removesuffix(".power") for name in names]
-    highest, net, both = peak(history), integral(history), integral_of_magnitude(history)
-    done = Number(0.5 * (both.value + net.value), both.doubt, both.time)
+    highest, net, both = curves.peak(history), curves.integral(history), curves.integral_of_magnitude(history)
+    done = curves.Number(0.5 * (both.value + net.value), both.doubt, both.time)
     values = {
         "peak_power": (dims, highest.value, {"units": "W"}),
         "work_done": (dims, done.value, {"units": "J"}),
@@ -105,24 +91,24 @@ def powers(result: Result, period: float | str | None = None) -> "xarray.Dataset
 
 def _open(result: Result, lacks: list[str]) -> list[str]:
     """What is open of loads, with impacts and pulses that frames do not show."""
-    return [*lacks, *unseen_between_frames(result)]
+    return [*lacks, *curves.unseen_between_frames(result)]
 
 
-def _open_work(work: Number, both: Number, names: Sequence[str]) -> list[str]:
+def _open_work(work: curves.Number, both: curves.Number, names: Sequence[str]) -> list[str]:
     """What is open of works, beside all work done and taken back."""
     share = work.doubt / max(float(np.max(both.value, initial=0.0)), 1e-300)
     k = int(np.argmax(share))
     said = f"work of {names[k]} between frames, which may be off by {work.doubt[k]:.2g} J"
-    return [said] if share[k] > TOLD else []
+    return [said] if share[k] > curves.TOLD else []
 
 
-def _of_cycle(power: Curve, period: float) -> Number:
+def _of_cycle(power: curves.Curve, period: float) -> curves.Number:
     """Work [J] from the end of the result back over one period."""
     first, last = float(power.time[0]), float(power.time[-1])
     if not 0.0 < period <= (last - first) * (1.0 + 1e-9):
         wanted = f"a period above zero and up to the {last - first:.6g} s of the result"
         raise ModelError(f"{wanted} was expected, got {period:.6g} s")
-    return integral(power.within(max(last - period, first), last))
+    return curves.integral(power.within(max(last - period, first), last))
 
 
 class FatigueCurve(Checked):
@@ -174,8 +160,8 @@ def cycles(
         raise ModelError(f"`{name}` has several numbers at a time; take one of them, e.g. `{name}.x`")
     if not np.isfinite(values).all():
         raise ModelError(f"`{name}` is not a number at every time")
-    of = curve_of(result, name)
-    turns = turning_values(of)
+    of = curves.curve_of(result, name)
+    turns = curves.turning_values(of)
     if repeating and len(turns):
         start = int(np.argmax(np.abs(turns - values.mean())))
         turns = np.append(np.roll(turns, -start), turns[start])

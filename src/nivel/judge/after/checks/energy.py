@@ -14,15 +14,8 @@ from nivel.elements.forces import FORCES
 from nivel.judge.after.report import SECOND_RUN, Check, Need
 from nivel.judge.after.subject import Motion, Run
 from nivel.lazy import Struct
+from nivel.results import scales as sizes
 from nivel.results.motion import common_frames, peak
-from nivel.results.scales import (
-    Readable,
-    kinetic_energy_of_rest,
-    largest_energy,
-    largest_mechanical_energy,
-    speed_of_rest,
-    work_to_and_fro,
-)
 from nivel.results.trust import Item, Threshold, number, quantity
 
 # Work in a step as a share of the largest energy from which on it is not followed, and of the energy error that it can explain.
@@ -69,11 +62,11 @@ def look_at_balance(run: Motion) -> Energy:
     result, scales = run.result, run.scales
     error, (violation, units) = peak(result, "energy_error"), run.opening
     opening = violation.value / scales.size if units == "m" else violation.value
-    scale, kind = largest_energy(result, scales.size, opening, scales.at_rest)
-    slowest = speed_of_rest(result, scales.size)
-    if run.kinetic_energy > max(scale, kinetic_energy_of_rest(result, slowest)):
+    scale, kind = sizes.largest_energy(result, scales.size, opening, scales.at_rest)
+    slowest = sizes.speed_of_rest(result, scales.size)
+    if run.kinetic_energy > max(scale, sizes.kinetic_energy_of_rest(result, slowest)):
         scale, kind = run.kinetic_energy, "largest kinetic energy"
-    if isinstance(run, Run) and run.second is not None and scale < (passed := work_to_and_fro(result)) < math.inf:
+    if isinstance(run, Run) and run.second is not None and scale < (passed := sizes.work_to_and_fro(result)) < math.inf:
         scale, kind = passed, "work of external forces to and fro"
     found = None if error.value < BALANCE.green * scale else unresolved_force(result, error.value)
     if found is None:
@@ -110,13 +103,13 @@ def _cause(found: Energy) -> str:
     )
 
 
-def unresolved_force(result: Readable, error: float) -> Unresolved | None:
+def unresolved_force(result: sizes.Readable, error: float) -> Unresolved | None:
     """The force whose work in a step is largest, where it is too much for the step and of a size with the energy error [J]; None where
     there is none, and where steps are chosen."""
     settings = json.loads(str(result.attributes.get("settings", "{}")))
     if "step" not in settings or "tolerance" in settings or not len(result.time):
         return None
-    step, energy = float(settings["step"]), largest_mechanical_energy(result)
+    step, energy = float(settings["step"]), sizes.largest_mechanical_energy(result)
     found = [Unresolved(name, work, time, step, energy) for name, work, time in _works(result, step)]
     worst = max(found, key=lambda each: each.work, default=None)
     if worst is None or worst.work < max(FOLLOWED * energy, EXPLAINS * error if np.isfinite(error) else 0.0):
@@ -124,7 +117,7 @@ def unresolved_force(result: Readable, error: float) -> Unresolved | None:
     return worst
 
 
-def _works(result: Readable, step: float) -> list[tuple[str, float, float]]:
+def _works(result: sizes.Readable, step: float) -> list[tuple[str, float, float]]:
     """(name, largest work in a step [J], its time [s]) of the forces that can be stiff and do any."""
     record = json.loads(str(result.attributes.get("machine_record", "{}")))
     # a load that is given, or dry friction, changes no faster than what makes it
@@ -168,7 +161,7 @@ def look_at_damping(run: Run) -> Damped | None:
     k = int(np.argmin(errors))
     lost, lost_other = -float(errors[k]), -float(others[k])
     finer, coarser = (lost, lost_other) if longer else (lost_other, lost)
-    scale = largest_energy(result, run.scales.size, at_rest=run.scales.at_rest)[0]
+    scale = sizes.largest_energy(result, run.scales.size, at_rest=run.scales.at_rest)[0]
     if not (lost > LOSS * scale and finer > STAYS * coarser):
         return None
     return Damped(lost, lost_other, run.plan.settings.integrator, longer)

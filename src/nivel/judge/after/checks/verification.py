@@ -1,23 +1,9 @@
 """Outcome of an analysis, what has verified its result and what of it nothing has, variants of a sweep and references of a comparison."""
 
+from nivel.judge.after import subject as subjects
 from nivel.judge.after.checks.efforts import not_compared
 from nivel.judge.after.other_elements import Compared
 from nivel.judge.after.report import Check
-from nivel.judge.after.subject import (
-    Actuated,
-    Curve,
-    Equilibria,
-    Led,
-    Linearisation,
-    Methods,
-    Motion,
-    Positions,
-    Reach,
-    Run,
-    Subject,
-    Sweep,
-    Variant,
-)
 from nivel.lazy import Struct
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.trust import Item, Verdict, number
@@ -33,7 +19,7 @@ class Verification(Struct):
     lacks: tuple[str, ...] = ()
 
 
-def look_at_run(run: Run) -> Verification:
+def look_at_run(run: subjects.Run) -> Verification:
     """The second run, and the one with other elements."""
     if run.second is None or not len(run.second.result.time):
         return Verification((), ("no second run was made",))
@@ -41,19 +27,19 @@ def look_at_run(run: Run) -> Verification:
     return Verification((f"a second run with {run.second.refinement.words}", *by), lacks)
 
 
-def look_at_equilibria(subject: Equilibria) -> Verification:
+def look_at_equilibria(subject: subjects.Equilibria) -> Verification:
     """The balance of forces, and the equilibria with other elements."""
     by, lacks = examined_elements(subject.machine, subject.elements)
     return Verification(("the balance of forces in every state", *by), lacks)
 
 
-def look_at_positions(subject: Positions) -> Verification:
+def look_at_positions(subject: subjects.Positions) -> Verification:
     """Constraints, and functions of drivers that are evaluated apart from them."""
     by, lacks = _followed(subject)
     return Verification(("the closed joints", *by), lacks)
 
 
-def look_at_efforts(subject: Actuated) -> Verification:
+def look_at_efforts(subject: subjects.Actuated) -> Verification:
     """The balance of forces, what the motion says of itself, and the functions of the drivers."""
     by, lacks = _followed(subject)
     motion = subject.result.trust
@@ -62,19 +48,19 @@ def look_at_efforts(subject: Actuated) -> Verification:
     return Verification(("the balance of forces at every time", *by), lacks)
 
 
-def _followed(subject: Positions | Actuated) -> tuple[tuple[str, ...], tuple[str, ...]]:
+def _followed(subject: subjects.Positions | subjects.Actuated) -> tuple[tuple[str, ...], tuple[str, ...]]:
     left = not_compared(subject)
     lacks = (f"what {first_of(left, SHOWN)} prescribe{'s' * (len(left) == 1)}",) if left else ()
     compared = len(left) < len(subject.drivers)
     return ("the functions of its drivers, evaluated apart",) if compared else (), lacks
 
 
-def look_at_led(subject: Led) -> Verification:
+def look_at_led(subject: subjects.Led) -> Verification:
     """The postures themselves: where they put the point, evaluated at each of them."""
     return Verification(("the place of the point in every posture, with its joints closed",))
 
 
-def look_at_reach(subject: Reach) -> Verification:
+def look_at_reach(subject: subjects.Reach) -> Verification:
     """The kinematic analyses of both ways, and the turning points of the curve of positions."""
     ways = "the closed joints of both ways"
     if subject.range.full_turn or not (subject.range.low_reason or subject.range.high_reason):
@@ -84,12 +70,12 @@ def look_at_reach(subject: Reach) -> Verification:
     return Verification((ways, "the turning points of the curve of positions"))
 
 
-def look_at_curve(_: Curve) -> Verification:
+def look_at_curve(_: subjects.Curve) -> Verification:
     """The joints at all places."""
     return Verification(("the closed joints at every position",))
 
 
-def look_at_linear(subject: Linearisation) -> Verification:
+def look_at_linear(subject: subjects.Linearisation) -> Verification:
     """What eigenvalues are of: an equilibrium, or a motion that was followed; and vibrations with other elements."""
     if subject.unsteady or any(each.jumps for each in subject.kinks):
         return Verification((), ("the linear equations, which describe no motion",))
@@ -100,7 +86,7 @@ def look_at_linear(subject: Linearisation) -> Verification:
     return Verification((by, *more), (*lacks, *run))
 
 
-def look_at_methods(subject: Methods) -> Verification:
+def look_at_methods(subject: subjects.Methods) -> Verification:
     """The references, each of which checks the other."""
     references, rows = subject.references, [each for each in subject.rows if each.outcome == "done"]
     if not references or not rows:
@@ -112,7 +98,7 @@ def look_at_methods(subject: Methods) -> Verification:
     return Verification(tuple(each.name for each in references))
 
 
-def look_at_sweep(sweep: Sweep) -> Verification:
+def look_at_sweep(sweep: subjects.Sweep) -> Verification:
     """The variants that were verified, and those that were not."""
     ran = [each for each in sweep.variants if each.verdict]
     left = [each for each in ran if not each.verified]
@@ -136,27 +122,27 @@ def _elements(machine: MachineRecord, words: str) -> tuple[tuple[str, ...], tupl
 
 
 VERDICTS: dict[str, Verdict] = {"done": "green", "interrupted": "amber", "failed": "red", "running": "amber"}
-SAID: dict[type[Subject], dict[str, str]] = {
-    Motion: {
+SAID: dict[type[subjects.Subject], dict[str, str]] = {
+    subjects.Motion: {
         "done": "the run reached its end",
         "interrupted": "interrupted; the result ends there",
         "failed": "the computation failed; the result ends there",
         "running": "the file was not closed: the run is still going on, or it was killed",
     },
-    Equilibria: {
+    subjects.Equilibria: {
         "done": "every state of equilibrium was found",
         "interrupted": "interrupted; the result has the states up to there",
         "failed": "the computation failed; the result has the states up to there",
     },
-    Positions: {
+    subjects.Positions: {
         "done": "every position was found",
         "interrupted": "interrupted; the result has the positions up to there",
         "failed": "the machine cannot move any further; the result has the positions up to there",
     },
-    Actuated: {"done": "efforts were found for every time of the motion"},
-    Linearisation: {"done": "the linear equations were found"},
-    Methods: {"done": "every cell was tried", "interrupted": "interrupted; cells are missing"},
-    Sweep: {
+    subjects.Actuated: {"done": "efforts were found for every time of the motion"},
+    subjects.Linearisation: {"done": "the linear equations were found"},
+    subjects.Methods: {"done": "every cell was tried", "interrupted": "interrupted; cells are missing"},
+    subjects.Sweep: {
         "done": "every variant was tried",
         "interrupted": "interrupted; some variants are not run",
     },
@@ -170,11 +156,11 @@ class Outcome(Struct):
     said: str
 
 
-def look_at_outcome(subject: Subject) -> Outcome:
+def look_at_outcome(subject: subjects.Subject) -> Outcome:
     """The outcome, with the failure or the event that ended it."""
     words = next((each for kind, each in SAID.items() if isinstance(subject, kind)), {})
     said = words.get(subject.outcome, subject.outcome)
-    if isinstance(subject, Motion) and subject.stopped_by:
+    if isinstance(subject, subjects.Motion) and subject.stopped_by:
         said = f"the event {subject.stopped_by} ended the run, as intended"
     return Outcome(subject.outcome, f"{said}: {subject.failure}" if subject.failure else said)
 
@@ -207,7 +193,7 @@ class Judged(Struct):
     headline: str
 
 
-def look_at_ends(sweep: Sweep) -> Ran:
+def look_at_ends(sweep: subjects.Sweep) -> Ran:
     """Variants that failed, were refused or not run."""
     others = [each for each in sweep.variants if each.outcome not in ENDED]
     first, reason = (others[0].name, others[0].reason or others[0].outcome) if others else ("", "")
@@ -224,9 +210,9 @@ def say_ends(found: Ran) -> Item:
     return Item("variants", verdict, text, row=found.first)
 
 
-def look_at_verdicts(sweep: Sweep) -> Judged:
+def look_at_verdicts(sweep: subjects.Sweep) -> Judged:
     """The trust reports of the variants."""
-    by: dict[str, list[Variant]] = {
+    by: dict[str, list[subjects.Variant]] = {
         colour: [each for each in sweep.variants if each.verdict == colour] for colour in WORST
     }
     worst = next((each[0] for each in by.values() if each), None)
@@ -253,7 +239,7 @@ class Held(Struct):
     blind: tuple[str, ...]
 
 
-def look_at_references(subject: Methods) -> Held:
+def look_at_references(subject: subjects.Methods) -> Held:
     """The references, the best first."""
     every = subject.references
     return Held(
@@ -282,18 +268,18 @@ def say_references(found: Held) -> Item:
 
 
 CHECKS = (
-    Check("verification", Run, look_at_run, lambda _: None, 1),
-    Check("verification", Equilibria, look_at_equilibria, lambda _: None, 1),
-    Check("verification", Positions, look_at_positions, lambda _: None, 1),
-    Check("verification", Actuated, look_at_efforts, lambda _: None, 1),
-    Check("verification", Led, look_at_led, lambda _: None, 1),
-    Check("verification", Reach, look_at_reach, lambda _: None, 1),
-    Check("verification", Curve, look_at_curve, lambda _: None, 1),
-    Check("verification", Linearisation, look_at_linear, lambda _: None, 1),
-    Check("verification", Methods, look_at_methods, lambda _: None, 1),
-    Check("verification", Sweep, look_at_sweep, lambda _: None, 1),
-    Check("outcome", Subject, look_at_outcome, say_outcome, 0, (), "Outcome"),
-    Check("variants", Sweep, look_at_ends, say_ends, 12, (), "Variants"),
-    Check("verdicts", Sweep, look_at_verdicts, say_verdicts, 14, (), "Verdicts"),
-    Check("references", Methods, look_at_references, say_references, 10, (), "References"),
+    Check("verification", subjects.Run, look_at_run, lambda _: None, 1),
+    Check("verification", subjects.Equilibria, look_at_equilibria, lambda _: None, 1),
+    Check("verification", subjects.Positions, look_at_positions, lambda _: None, 1),
+    Check("verification", subjects.Actuated, look_at_efforts, lambda _: None, 1),
+    Check("verification", subjects.Led, look_at_led, lambda _: None, 1),
+    Check("verification", subjects.Reach, look_at_reach, lambda _: None, 1),
+    Check("verification", subjects.Curve, look_at_curve, lambda _: None, 1),
+    Check("verification", subjects.Linearisation, look_at_linear, lambda _: None, 1),
+    Check("verification", subjects.Methods, look_at_methods, lambda _: None, 1),
+    Check("verification", subjects.Sweep, look_at_sweep, lambda _: None, 1),
+    Check("outcome", subjects.Subject, look_at_outcome, say_outcome, 0, (), "Outcome"),
+    Check("variants", subjects.Sweep, look_at_ends, say_ends, 12, (), "Variants"),
+    Check("verdicts", subjects.Sweep, look_at_verdicts, say_verdicts, 14, (), "Verdicts"),
+    Check("references", subjects.Methods, look_at_references, say_references, 10, (), "References"),
 )

@@ -200,7 +200,7 @@ class Machine(Model):
         Returns the list of what has another form there, and of what was left out. Raises ModelError where bodies or joints cannot be
         written, and where `path` exists and `force` is false.
         """
-        return self._write_model(nivel.exchange.mjcf_writer.mjcf, Path(fspath(path)), "MJCF file", force)
+        return self._write_model(nivel.exchange.robot_writers.mjcf, Path(fspath(path)), "MJCF file", force)
 
     def export_urdf(self, path: str | PathLike[str], *, force: bool = False) -> tuple[str, ...]:
         """Write the tree of the machine's rigid bodies as a URDF, with its meshes in a folder beside `path`.
@@ -208,7 +208,7 @@ class Machine(Model):
         Returns the list of what has another form there, and of what was left out. Raises ModelError where bodies or joints cannot be
         written, and where `path` exists and `force` is false.
         """
-        return self._write_model(nivel.exchange.urdf_writer.urdf, Path(fspath(path)), "URDF", force)
+        return self._write_model(nivel.exchange.robot_writers.urdf, Path(fspath(path)), "URDF", force)
 
     def _write_model(
         self,

@@ -126,8 +126,7 @@ import nivel.elements.joints.joint
 import nivel.elements.joints.on_beams
 import nivel.exchange
 import nivel.exchange.gltf_writer
-import nivel.exchange.mjcf_writer
-import nivel.exchange.urdf_writer
+import nivel.exchange.robot_writers
 import nivel.extras
 import nivel.files
 import nivel.files.assembly

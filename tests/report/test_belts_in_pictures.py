@@ -7,7 +7,7 @@ import pytest
 
 from nivel import Machine
 from nivel.files import parse_machine
-from nivel.looks.poses import body_poses
+from nivel.looks.viewpoint import body_poses
 from nivel.report.force_drawing import belt_line
 from nivel.report.picture import machine_picture
 

@@ -8,7 +8,7 @@ import pytest
 import nivel
 from example_files import EXAMPLES
 from nivel.demos import demo_file
-from nivel.looks.poses import upwards
+from nivel.looks.viewpoint import upwards
 from nivel.report.picture import machine_picture
 
 GAP = 4.5  # pixels between two names, a third of the height of a letter

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from nivel.elements.joints import JOINTS, UNKNOWN
-from nivel.looks.poses import sliding_axes, turning_axes
+from nivel.looks.viewpoint import sliding_axes, turning_axes
 from nivel.report.force_drawing import planes
 from nivel.report.picture import machine_picture
 from nivel.report.strokes import joint_icon, joint_sign

@@ -14,8 +14,8 @@ from many_bodies import ARC, NODES, RADIUS, arc, beam
 from nivel.api import Machine
 from nivel.files.reader import parse_machine
 from nivel.looks import sweeps
-from nivel.looks.poses import rotation
 from nivel.looks.solids import colour_of
+from nivel.looks.viewpoint import rotation
 from nivel.report.picture import machine_picture
 from nivel.results import Memory
 from nivel.view.package import Block

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from browsing import drawn, watched
-from nivel.looks.poses import body_poses
+from nivel.looks.viewpoint import body_poses
 from nivel.report.force_drawing import STEPS, rope_line
 from nivel.report.picture import machine_picture
 from nivel.results.frames.stored import strangers

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.files.target import write_file
-from nivel.looks.poses import upwards
 from nivel.looks.solids import Ball, colour_of_body, shapes_of, solid
+from nivel.looks.viewpoint import upwards
 from nivel.results.result import Result
 
 FLOAT: Final = 5126  # componentType

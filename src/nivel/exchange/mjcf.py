@@ -14,8 +14,7 @@ import numpy as np
 from nivel.errors import Fault, ModelError
 from nivel.exchange import mechanism as parts
 from nivel.exchange.mjcf_contacts import CLIP, hardness, kind_of, read_contacts
-from nivel.exchange.mjcf_equalities import axes_of, read_equalities
-from nivel.exchange.mjcf_tendons import Tendons
+from nivel.exchange.mjcf_couplings import Tendons, axes_of, read_equalities
 from nivel.exchange.urdf import digits
 from nivel.extras import needed, require
 from nivel.files.apart import apart

@@ -10,8 +10,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.looks.poses import Pose, in_space
 from nivel.looks.solids import Face, ears
+from nivel.looks.viewpoint import Pose, in_space
 from nivel.machine.core.vectors import Array
 
 MOST_RINGS: Final = 60  # of one sweep

@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.known import Result
-from nivel.looks.poses import body_poses, sliding_axes, turning_axes, upwards
 from nivel.looks.solids import colour_of
-from nivel.looks.viewpoint import choose_view
+from nivel.looks.viewpoint import body_poses, choose_view, sliding_axes, turning_axes, upwards
 from nivel.report.drawing import WIDTH, Frame, Label, aid_places, bar_strip, fit, place, scale_bar, triad_sign
 from nivel.report.panel import Array
 from nivel.report.plots import Axis

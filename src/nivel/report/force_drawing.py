@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.lazy import Struct
-from nivel.looks.poses import Array, Pose, ends_in_space, in_space, joint_axis
+from nivel.looks.viewpoint import Array, Pose, ends_in_space, in_space, joint_axis
 from nivel.report import strokes
 from nivel.report.drawing import Drawing, Frame, Label
 

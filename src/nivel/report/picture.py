@@ -8,10 +8,9 @@ import numpy as np
 
 from nivel.elements.joints import drawn
 from nivel.looks import solids
-from nivel.looks.poses import Array, Pose, body_poses, in_space, sliding_axes, turning_axes
 from nivel.looks.solids import Ball, Face, link_ends, shapes_of
 from nivel.looks.sweeps import rings, sweep_faces, swept_bodies
-from nivel.looks.viewpoint import choose_view
+from nivel.looks.viewpoint import Array, Pose, body_poses, choose_view, in_space, sliding_axes, turning_axes
 from nivel.report import drawing as pixels
 from nivel.report.drawing import WIDTH, Drawing, Frame, Label, mixed
 from nivel.report.force_drawing import Plane, belt_points, draw_belt, draw_force, draw_plane, force_points, planes

@@ -10,7 +10,7 @@ from markupsafe import Markup
 
 from nivel.elements.joints import drawn
 from nivel.elements.joints.constraints import PLANE_GAP
-from nivel.looks.poses import Pose, ends_in_space, joint_axis, stands_at_second
+from nivel.looks.viewpoint import Pose, ends_in_space, joint_axis, stands_at_second
 from nivel.report.drawing import Array, Drawing, Frame, Label
 
 Point = tuple[float, float]  # right and down

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebfit, chebval
 
 from nivel.lazy import Struct
-from nivel.looks.poses import rotation
+from nivel.looks.viewpoint import rotation
 from nivel.machine.core.vectors import Array
 from nivel.report.page import page
 from nivel.report.plots import Line, curves, path_drawing

@@ -16,7 +16,7 @@ from nivel.judge.after.report import thresholds_of
 from nivel.known import Result
 from nivel.lazy import Struct, asdict, nivel
 from nivel.looks.diagram import block_diagram
-from nivel.looks.poses import upwards
+from nivel.looks.viewpoint import upwards
 from nivel.machine.machine_record import MachineRecord
 from nivel.report.deflections import beam_shapes, load_paths, vibration_table
 from nivel.report.element_panels import power_picture

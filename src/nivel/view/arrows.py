@@ -12,7 +12,7 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.lazy import Struct
-from nivel.looks.poses import rotation
+from nivel.looks.viewpoint import rotation
 from nivel.machine.core.vectors import Array
 from nivel.view.records import Arrow, Force, Joint, Triple
 from nivel.view.stage import Cast, coordinate_place

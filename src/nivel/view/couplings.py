@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.elements.joints.couplings import FunctionCoupling
-from nivel.looks.poses import rotation
+from nivel.looks.viewpoint import rotation
 from nivel.machine.core.vectors import Array
 from nivel.machine.uses.coordinate_reference import Kind as CoordinateKind
 from nivel.view.records import Coupling, End, Track, Wheel

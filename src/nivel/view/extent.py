@@ -5,9 +5,18 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.lazy import Struct
-from nivel.looks.poses import Pose, body_poses, in_space, rotation, sliding_axes, turning_axes, upwards
 from nivel.looks.solids import attached, held_points, reach_of, shapes_of
-from nivel.looks.viewpoint import choose_view, is_planar
+from nivel.looks.viewpoint import (
+    Pose,
+    body_poses,
+    choose_view,
+    in_space,
+    is_planar,
+    rotation,
+    sliding_axes,
+    turning_axes,
+    upwards,
+)
 from nivel.machine.bodies.surface import surface_arrays
 from nivel.machine.core.vectors import Array
 from nivel.view.records import Triple, Viewpoint

@@ -11,8 +11,8 @@ import numpy as np
 from nivel.elements.joints import drawn
 from nivel.known import TerrainHistory
 from nivel.lazy import Struct, nivel, replace
-from nivel.looks.poses import slides_on_beam, stands_at_second
 from nivel.looks.solids import colour_of, colour_of_body, held_points, link_ends, shapes_of
+from nivel.looks.viewpoint import slides_on_beam, stands_at_second
 from nivel.machine.bodies.surface import surface_arrays
 from nivel.machine.core.vectors import Array
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS, Kind, UnknownCoordinateError, find

@@ -280,7 +280,6 @@ def _frames(out: Lines, tree: KinematicTree, body: str, link: str) -> None:
         _joint(out, f"{name}_frame", "fixed", link, name, frame)
 
 
-MJCF_WAY: float = 1e4  # [m or rad] the other end of a way that has one end
 APART: float = 0.1  # [m] between the two points that hold the axis of a revolute joint in a loop
 
 
@@ -363,7 +362,7 @@ class _Writer:
         at = self.tree.at[coordinate]
         ends = None
         if at.lower is not None or at.upper is not None:
-            ends = words((-MJCF_WAY if at.lower is None else at.lower, MJCF_WAY if at.upper is None else at.upper))
+            ends = words((-WAY if at.lower is None else at.lower, WAY if at.upper is None else at.upper))
         self.out.element(
             "joint",
             name=name,

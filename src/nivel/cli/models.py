@@ -48,7 +48,10 @@ from nivel.lazy import nivel, rich
 )
 @click.option("--keyframe", metavar="NAME", help="Keyframe of an MJCF file at which the machine starts.")
 @click.option(
-    "--density", type=float, metavar="KG/M3", help="Density of the solids of a STEP file; default 7850 kg/m³."
+    "--density",
+    type=float,
+    metavar="KG/M3",
+    help="Density of the solids of a STEP or FreeCAD file; default 7850 kg/m³.",
 )
 @quiet_option
 @force_option
@@ -64,7 +67,7 @@ def import_model(
     quiet: bool,
     force: bool,
 ) -> None:
-    """Translate MODEL, a URDF, SDF, MJCF or STEP file, into a machine file.
+    """Translate MODEL, a URDF, SDF, MJCF, STEP or FreeCAD file, into a machine file.
 
     The list of what was translated, in another form or not at all, is printed and stands in the comments of the file.
     """

@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Any, Final, Literal
 
 from nivel.errors import Fault, ModelError, retold
+from nivel.exchange.freecad import KIND as FREECAD
+from nivel.exchange.freecad import read_freecad
 from nivel.exchange.looks import Drawing
 from nivel.exchange.machine import machine_of
 from nivel.exchange.mechanism import Mechanism
@@ -19,7 +21,7 @@ from nivel.files.outline import FORMAT
 from nivel.files.reader import parse_machine
 from nivel.files.sources import read_bytes
 from nivel.files.step_file import KINDS as STEP_KINDS
-from nivel.files.step_file import step_solids
+from nivel.files.step_file import STEEL, step_solids
 from nivel.files.writer import write_data
 from nivel.files.xml_source import Document, Element
 from nivel.machine.bodies.surface import surface_text
@@ -69,8 +71,10 @@ def read_model(
     drawing = Drawing(path, [Path(each) for each in package_paths], beside.parent, f"{beside.stem}-meshes")
     if path.suffix.lower() in STEP_KINDS:
         return read_step(str(file), path.name, f"{beside.stem}-meshes", density)
+    if path.suffix.lower() == FREECAD:
+        return machine_of(read_freecad(path, density), path.name, drawing)
     if density is not None:
-        raise ModelError(f"{file}: the masses are in the model; `density` belongs to STEP files")
+        raise ModelError(f"{file}: the masses are in the model; `density` belongs to STEP files and those of FreeCAD")
     content = read_bytes(path)
     mechanism = _mechanism(content, str(file), base, contacts, keyframe, [Path(each) for each in include_paths])
     return machine_of(mechanism, path.name, drawing)
@@ -123,7 +127,7 @@ def _mechanism(
         if not start.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(b"<") and pattern.search(start):
             raise ModelError(Fault(file, 1, 1, "", answer))
     if not start.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(b"<"):
-        message = "this is no model that is read; there are URDF, SDF, MJCF (.xml) and STEP files"
+        message = "this is no model that is read; there are URDF, SDF, MJCF (.xml), STEP files and assemblies of FreeCAD (.FCStd)"
         raise ModelError(Fault(file, 1, 1, "", message))
     document = Document(content, file)
     root = document.root
@@ -158,9 +162,6 @@ def _macro(root: Element) -> Element | None:
         if each.tag.startswith("xacro:") or any(map(_XACRO.search, each.attributes.values()))
     )
     return next(made, None)
-
-
-STEEL: Final = 7850.0  # [kg/m³]
 
 
 def read_step(file: str, name: str, folder: str, density: float | None) -> Translation:

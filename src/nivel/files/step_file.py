@@ -19,6 +19,7 @@ from nivel.machine.core.vectors import Array
 KINDS: Final = (".step", ".stp")
 FACETS: Final = 24.0  # of a full turn of curved surfaces
 MOST_SOLIDS: Final = 5000
+STEEL: Final = 7850.0  # [kg/m³], where no density is given
 
 
 class Solid(Struct):

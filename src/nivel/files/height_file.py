@@ -125,6 +125,8 @@ def _picture(content: bytes) -> NDArray[np.float64]:
     while place + 8 <= len(content):
         (size,) = struct.unpack_from(">I", content, place)
         kind, part = content[place + 4 : place + 8], content[place + 8 : place + 8 + size]
+        if content[place + 8 + size : place + 12 + size] != struct.pack(">I", zlib.crc32(kind + part)):
+            raise NotReadError("the picture is damaged")
         if kind == b"IHDR":
             head = part
         elif kind == b"IDAT":
@@ -135,14 +137,14 @@ def _picture(content: bytes) -> NDArray[np.float64]:
     width, height, bits, colours, _, _, interlaced = struct.unpack(">IIBBBBB", head)
     if bits not in (8, 16) or colours not in CHANNELS or interlaced:
         raise NotReadError("a picture in grey of 8 or 16 bits was expected, not interlaced and without a palette")
-    if width * height > MOST:
-        raise NotReadError(f"the picture has more than {MOST} points")
+    if not 0 < width * height <= MOST:
+        raise NotReadError(f"the picture has {'more than ' + str(MOST) if width * height else 'no'} points")
     step = CHANNELS[colours] * bits // 8
+    line = 1 + width * step
     try:
-        rows = zlib.decompress(packed)
+        rows = zlib.decompressobj().decompress(packed, height * line + 1)  # what is packed may be without end
     except zlib.error:
         raise NotReadError("the picture is damaged") from None
-    line = 1 + width * step
     if len(rows) != height * line:
         raise NotReadError("the picture is damaged")
     raw = np.frombuffer(rows, np.uint8).reshape(height, line)

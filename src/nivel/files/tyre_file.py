@@ -89,7 +89,7 @@ def parsed(text: str) -> TyreFile:
     for number, line in enumerate(map(str.strip, text.splitlines()), 1):
         if not line or line[0] in "$!#":
             continue
-        if line[0] == "[":
+        if line[0] == "[" and "]" in line:
             section = line[1:].partition("]")[0].strip().upper()
             continue
         if not section:

@@ -351,6 +351,7 @@ def said(folder, text):
         ("LMUX  ", "LWET = 0.5\nLMUX  ", "`LWET`: this scaling factor is not known here but as 1"),
         ("LMUX                     = 1", "LMUX = 0", "`LMUX`: a positive number was expected"),
         ("PEX1  ", "PCX1 = 1.2\nPEX1  ", "`PCX1` stands here a second time; the first is in line"),
+        ("[UNITS]", "[UNITS", "`KEY = number` was expected, got `[UNITS`"),
         ("PEX1  ", "so much for that\nPEX1  ", "`KEY = number` was expected, got `so much for that`"),
         (TEXT, "no section\n", "line 1: a section such as `[UNITS]` was expected"),
         (TEXT, "", "`FITTYP` 5, 6"),

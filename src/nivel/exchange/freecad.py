@@ -107,9 +107,8 @@ class Archive:
         try:
             out.write_bytes(self._zip.read(file))
         except (KeyError, zipfile.BadZipFile) as error:
-            raise ModelError(
-                Fault(self.document.file, 1, 1, "", f"the shape `{file}` cannot be read: {error}")
-            ) from None
+            message = f"the shape `{file}` cannot be read: {error}"
+            raise ModelError(Fault(self.document.file, 1, 1, "", message)) from None
         return str(out)
 
 
@@ -178,11 +177,8 @@ def _join(name: str, top: str, archive: Archive, mechanism: Mechanism) -> None:
     kind, axis = KINDS[given], first.axes[:, 2]
     away = first.origin - second.origin
     off = away - (axis @ away) * axis if kind in ("cylindrical", "translational") else away
-    tilt = (
-        first.axes[:, :2] - second.axes[:, :2]
-        if kind in ("fixed", "translational")
-        else np.cross(axis, second.axes[:, 2])
-    )
+    turned = first.axes[:, :2] - second.axes[:, :2]
+    tilt = turned if kind in ("fixed", "translational") else np.cross(axis, second.axes[:, 2])
     is_open = max(float(np.abs(off).max()), 0.0 if kind == "spherical" else float(np.abs(tilt).max())) > CLOSED
     axes = () if kind in ("fixed", "spherical") else (axis,)
     joint = Connection(name, kind, (ends[0], ends[1]), first.origin, axes, line=element.line)

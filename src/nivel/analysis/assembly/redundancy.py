@@ -107,12 +107,7 @@ def analyse(motion: MotionEquations, t: float, y: Array, modes: ModalRows | None
     loose = np.abs(N).max(axis=1) > 1e-6
     joints = dict.fromkeys(system.row_owner[row] for row in np.flatnonzero(loose))
     return Redundancy(
-        freedoms - rank,
-        positions,
-        rank,
-        names,
-        tuple(joints),
-        names[: nearby - rank] if nearby > rank else (),
+        freedoms - rank, positions, rank, names, tuple(joints), names[: nearby - rank] if nearby > rank else ()
     )
 
 

@@ -80,11 +80,7 @@ def seeds_of(memory: MachineMemory, parameters: Sequence[Parameter], beside: Bes
         x = np.array([each.value])
         try:
             numbers = numbers_of(
-                memory,
-                x,
-                [values],
-                lambda _, value, each=each: beside(each, value),
-                partial(_is_smooth, memory),
+                memory, x, [values], lambda _, value, each=each: beside(each, value), partial(_is_smooth, memory)
             )
         except UnfitError as error:
             faults += _faults(error.args[0], each)

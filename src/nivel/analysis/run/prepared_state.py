@@ -327,9 +327,7 @@ class Placing:
         self._fit_rates(t, y, {**{name: speeds[name] for name in self._keeping(rates)}, **rates}, rates)
         found = system.record.coordinates.reference.copy()
         return Placed(
-            self._in_run_coordinates(y, found, states),
-            found,
-            y[: system.positions].reshape(-1, 7)[:, :3].copy(),
+            self._in_run_coordinates(y, found, states), found, y[: system.positions].reshape(-1, 7)[:, :3].copy()
         )
 
     def _keeping(self, wanted: Mapping[str, float]) -> list[str]:

@@ -323,12 +323,7 @@ def simulate(
 
 
 def close_run(
-    sink: Memory | Store,
-    run: Run,
-    timing: dict[str, float],
-    *,
-    judge: bool = True,
-    trust: Trust | None = None,
+    sink: Memory | Store, run: Run, timing: dict[str, float], *, judge: bool = True, trust: Trust | None = None
 ) -> Result:
     """Close the sink of a run with its trust report, where it is to be judged, and all that is known of how it ended.
 

@@ -94,10 +94,7 @@ def for_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[Mach
 
 def planned(record: MachineRecord, given: Mapping[str, Any]) -> tuple[StaticsSettings, Methods]:
     """Settings of statics for a machine, and its methods. Raises ModelError."""
-    own = {
-        "duration": record.simulation.duration,
-        "coordinates": static_coordinates(record.simulation.coordinates),
-    }
+    own = {"duration": record.simulation.duration, "coordinates": static_coordinates(record.simulation.coordinates)}
     asked = settings_of(StaticsSettings, "statics", own | dict(given))
     neutral, chosen = for_statics(record, asked)
     return asked, methods_of(neutral, "newton-euler", chosen)

@@ -150,14 +150,7 @@ def beam_strains(beam: Beam, v: Array) -> Strains:
     def dot(x: Array, y: Array) -> Array:
         return np.sum(x * y, axis=-1)
 
-    value = [
-        0.5 * dot(d, d) - 0.5,
-        dot(d, Y),
-        dot(d, Z),
-        0.5 * (dot(Ys, Z) - dot(Zs, Y)),
-        dot(d, Zs),
-        -dot(d, Ys),
-    ]
+    value = [0.5 * dot(d, d) - 0.5, dot(d, Y), dot(d, Z), 0.5 * (dot(Ys, Z) - dot(Zs, Y)), dot(d, Zs), -dot(d, Ys)]
     share = np.tile(xi, (len(lengths), 1))
     return Strains(share, weight * lengths[:, None], np.stack(value, axis=-1))
 

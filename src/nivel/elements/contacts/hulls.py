@@ -101,10 +101,7 @@ def least_overlap(columns, n):
     for k in range(np.int64(columns[FACES]) + np.int64(columns[OTHER_FACES])):
         of_first = k < columns[FACES]
         overlap, at = overlap_under(
-            n,
-            faces + 4 * k,
-            seen if of_first else first,
-            columns[OTHER_CORNERS] if of_first else columns[CORNERS],
+            n, faces + 4 * k, seen if of_first else first, columns[OTHER_CORNERS] if of_first else columns[CORNERS]
         )
         if real(overlap) < real(least):
             least, face, corner, own = overlap, faces + 4 * k, at, of_first

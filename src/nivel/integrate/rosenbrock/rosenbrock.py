@@ -16,15 +16,7 @@ import numpy as np
 
 from nivel.elements.circuits.ledger import balance_mass, mass_apart
 from nivel.integrate.facts import IntegratorFacts
-from nivel.integrate.loop.run import (
-    FACTORISATIONS,
-    REACHED,
-    STEP,
-    STEP_SIGNATURE,
-    TIME,
-    evaluate_at,
-    run_at,
-)
+from nivel.integrate.loop.run import FACTORISATIONS, REACHED, STEP, STEP_SIGNATURE, TIME, evaluate_at, run_at
 from nivel.kernels.algebra.rows import add_times, advance, copy
 from nivel.kernels.core.lanes import is_whole
 from nivel.kernels.core.status import OK

@@ -79,13 +79,7 @@ class Known:
 
 
 def array_of(
-    context: Any,
-    builder: Any,
-    kind: types.Array,
-    data: Any,
-    shape: Sequence[Any],
-    strides: Sequence[Any],
-    **rest: Any,
+    context: Any, builder: Any, kind: types.Array, data: Any, shape: Sequence[Any], strides: Sequence[Any], **rest: Any
 ) -> Any:
     """The structure of an array of this kind whose items begin at the pointer `data`; strides in bytes. rest : other parts."""
     model = context.data_model_manager[kind]

@@ -142,10 +142,7 @@ SAID: dict[type[subjects.Subject], dict[str, str]] = {
     subjects.Actuated: {"done": "efforts were found for every time of the motion"},
     subjects.Linearisation: {"done": "the linear equations were found"},
     subjects.Methods: {"done": "every cell was tried", "interrupted": "interrupted; cells are missing"},
-    subjects.Sweep: {
-        "done": "every variant was tried",
-        "interrupted": "interrupted; some variants are not run",
-    },
+    subjects.Sweep: {"done": "every variant was tried", "interrupted": "interrupted; some variants are not run"},
 }
 
 

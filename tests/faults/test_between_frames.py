@@ -270,6 +270,9 @@ def test_pulses_that_no_frame_meets_and_that_move_nothing_are_told(velocity, mor
     assert row.outputs["most"].value < 1.0
     assert row.verdict != "green"
     assert "a pulse of " in row.headline
+    slope = machine_of(law).gradient("peak(driver.d.effort)", "bodies.a.mass")
+    assert slope.attrs["verdict"] == "amber"
+    assert "a pulse of " in slope.attrs["headline"]
     assert machine_of("100*sin(time)").simulate(verify=True).powers().attrs["verdict"] == "green"
 
 

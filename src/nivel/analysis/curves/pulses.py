@@ -11,6 +11,7 @@ from nivel.machine.core.vectors import Array
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.curve import STENCIL, TOLD, curve
 from nivel.results.result import Result
+from nivel.results.trust import number
 
 MOST_FRAMES, MOST_SAMPLES = 20_000, 200_000
 ROUND_OFF = 1e-9  # of the largest value
@@ -23,6 +24,11 @@ class Pulse(Struct):
     off: float
     time: float
     share: float
+
+    @property
+    def told(self) -> str:
+        """In words."""
+        return f"a pulse of {self.name} between frames, {number(self.off)} beyond what frames show at t = {self.time:.6g} s"
 
 
 def largest_pulse(machine: MachineRecord, result: Result) -> Pulse | None:

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import xarray
 
+from nivel.analysis.curves.pulses import largest_pulse
 from nivel.analysis.gradients.check import STEPS, Checked, Slope, check, worst
-from nivel.analysis.gradients.outputs import Array, Output, Parameter, Reduced, outputs_of, parameters_of
+from nivel.analysis.gradients.outputs import OVER_TIME, Array, Output, Parameter, Reduced, outputs_of, parameters_of
 from nivel.analysis.gradients.slopes import Slopes, find_slopes, memory_of, values_of
 from nivel.analysis.plan.choice import FOR_STIFF
 from nivel.analysis.plan.compilation import build, run_entries
@@ -28,7 +29,7 @@ from nivel.integrate.loop.sink import Header
 from nivel.judge.before.refusals import ON_SOIL, sampled_times
 from nivel.lazy import replace
 from nivel.model import Model
-from nivel.results.curve import TOLD
+from nivel.results.curve import RATES, TOLD, unseen_between_frames
 from nivel.results.frames.contents import MemoryContents, per
 from nivel.results.frames.summary import to_json
 from nivel.results.frames.tabulated import data_array
@@ -174,7 +175,14 @@ def gradient(
     asked = outputs_of(outputs, plain, curves=curves)
     _refuse_events(asked, varied.prepared)
     slopes, verdicts = checked_slopes(varied, parameters, asked, plain, listener, checked=checked)
-    return _dataset(slopes, plain, asked, [slopes.evaluate(output) for output in asked], verdicts)
+    found = [slopes.evaluate(output) for output in asked]
+    return _dataset(slopes, plain, asked, found, verdicts, _unseen(plan, plain) if checked else "")
+
+
+def _unseen(plan: Plan, plain: Result) -> str:
+    """What forces, sensors and reactions do between frames that these show nothing of, in words."""
+    pulse = largest_pulse(plan.machine, plain)
+    return "; ".join([*([pulse.told] if pulse else []), *unseen_between_frames(plain)])
 
 
 def checked_slopes(
@@ -254,10 +262,13 @@ def _dataset(
     outputs: Sequence[Output],
     found: Sequence[Reduced],
     verdicts: Sequence[Checked | None],
+    unseen: str,
 ) -> xarray.Dataset:
     data: dict[str, Any] = {}
     for output, (value, slope, doubt), verdict in zip(outputs, found, verdicts, strict=True):
         units, lights = output.units(plain), _lights(verdict, slope, doubt)
+        if unseen and output.reduce in OVER_TIME and plain.selection(output.name).variable not in RATES:
+            lights = tuple("amber" if light == "green" else light for light in lights)
         data[output.label] = _like(output, plain, value, {"units": units, "long_name": output.label})
         errors = np.full_like(slope, np.nan)
         if verdict is not None:
@@ -267,7 +278,10 @@ def _dataset(
             largest = float(np.max(errors[k])) if np.size(errors[k]) else 0.0
             name, attributes = described(output.label, parameter, units, largest, lights[k])
             data[name] = _like(output, plain, slope[k], attributes)
-    return attributed(data, plain.name)
+    out = attributed(data, plain.name)
+    if unseen and out.attrs["verdict"] != "green":
+        out.attrs["headline"] += f"; {unseen}"
+    return out
 
 
 def described(label: str, parameter: Parameter, units: str, error: float, light: str) -> tuple[str, dict[str, Any]]:

@@ -132,6 +132,7 @@ REDUCTIONS: dict[str, Reduce] = {
     "integral": integral,
     "final": final,
 }
+OVER_TIME = tuple(each for each in REDUCTIONS.values() if each is not final)  # what frames alone cannot know
 
 
 class Output(Struct):

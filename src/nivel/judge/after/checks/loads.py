@@ -278,17 +278,14 @@ def look_for_pulses(run: Run) -> Pulse | None:
     """The function that does most between frames; noted, as numbers that are made from frames know nothing of it."""
     found = largest_pulse(run.machine, run.result)
     if found is not None:
-        off = f"{number(found.off)} beyond what frames show at t = {found.time:.6g} s"
-        run.finished.pulse = f"a pulse of {found.name} between frames, {off}"
+        run.finished.pulse = found.told
     return found
 
 
 def say_pulse(found: Pulse) -> Item:
     """The line is green: the stored numbers are right."""
-    said = f"Not examined: peaks, work and cycles between frames: {found.name} goes {number(found.off)} beyond what frames show at"
-    return Item(
-        "unexamined", "green", f"{said} t = {found.time:.6g} s; a shorter output_interval shows it", row=found.name
-    )
+    said = f"Not examined: peaks, work and cycles: {found.told}; a shorter output_interval shows it"
+    return Item("unexamined", "green", said, row=found.name)
 
 
 CHECKS = (

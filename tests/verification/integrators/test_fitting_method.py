@@ -179,13 +179,13 @@ def test_waves_in_lines_are_met_by_steps():
 def test_other_choices_together_do_three_times_the_work_of_the_first(monkeypatch):
     """The beam that swings under its weight is not green with its first steps."""
     monkeypatch.setattr(second_run, "LEAST_WORK", 0.0)
-    done, one = [], simulation.attempt
+    done, one = [], second_run.attempt
 
     def noted(*given):
         done.append(one(*given))
         return done[-1]
 
-    monkeypatch.setattr(simulation, "attempt", noted)
+    monkeypatch.setattr(second_run, "attempt", noted)
     cantilever().simulate(duration=0.02, verify=True)
     work = [simulation._work_of(each) for each in done]
     assert len(work) > 1

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import linked
 import machines
@@ -396,3 +397,27 @@ def test_balances_over_whole_steps_refuse_it():
     settings = {"integrator": "energy-momentum", "coordinates": "absolute", "stabilisation": "none", "step": 1e-3}
     with pytest.raises(ModelError, match="'stiction' does not go with `integrator: energy-momentum`"):
         simulate(sled({"model": "stiction"}), duration=1.0, **settings)
+
+
+def test_what_breaks_away_again_and_again_is_known_within_the_tolerance():
+    """1 kg under 30 N sin ωt, ω = 6/s, and friction of 20 N: it leaves when sin ωt₁ = 2/3, stops where 5 (cos ωt₁ - cos ωt₂) = 20 (t₂ - t₁)
+    and goes the same way back after half a period.
+
+    What held at the begin of a step and slides at its end is not stiff any more: the estimate of the error has to know it.
+    """
+    rub = {"type": "friction", "coordinate": "rail", "model": "stiction", "coefficient": 0.2, "normal_load": 100.0}
+    pull = {"type": "motor", "coordinate": "rail", "effort": "30*sin(6*time)"}
+    sections = {"bodies": {"block": solid(1.0)}, "joints": {"rail": slide("ground", "block")}}
+    r = simulate({**sections, "forces": {"pull": pull, "rub": rub}}, duration=6.0)
+    half, first = np.pi / 6.0, np.arcsin(2.0 / 3.0) / 6.0
+    last = brentq(
+        lambda t: 5.0 * (np.cos(6.0 * first) - np.cos(6.0 * t)) - 20.0 * (t - first), half / 2.0, half + first
+    )
+    way = 5.0 * np.cos(6.0 * first) * (last - first) - 5.0 / 6.0 * (np.sin(6.0 * last) - np.sin(6.0 * first))
+    way -= 10.0 * (last - first) ** 2
+    turn, since = np.divmod(r.time - last - 1e-3, half)
+    rests = (r.time > last) & (since < first + half - last - 1e-3)
+    expected = np.where(turn[rests] % 2 == 0.0, way, 0.0)
+    assert rests.sum() > 100
+    assert r.settings["integrator"] == "radau"
+    np.testing.assert_allclose(r.array("rail.displacement")[rests], expected, atol=5e-7)

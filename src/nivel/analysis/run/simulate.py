@@ -159,11 +159,10 @@ class Choices:
         """Shorter fixed steps: as short as the lines that are not green ask for, the usual ones at first, and as work allows."""
         (last, report), before = self.judged[0], inf
         usual, order = self.asked.simulation.step, INTEGRATORS[self.plan.settings.integrator].order
-        while (longer := round(last.plan.settings.step / usual, 6)) > 1.0 or _excess(report) < LESS * before:
+        while (longer := int(last.plan.settings.step / usual * (1.0 + 1e-9))) > 1 or _excess(report) < LESS * before:
             wanted = max(2, ceil((MARGIN * _excess(report)) ** (1.0 / order)))
-            parts = min(
-                MOST_PARTS, wanted, int(self.left / max(_work_of(last), 1)), ceil(longer) if longer > 1.0 else wanted
-            )
+            affordable = int(self.left / max(_work_of(last), 1))
+            parts = min(MOST_PARTS, wanted, affordable, longer if longer > 1 else wanted)
             if parts < 2:
                 return
             step = last.plan.settings.step / parts

@@ -27,8 +27,8 @@ from nivel.kernels.residual.shifted_matrix import find_parts, keep_multipliers
 from nivel.kernels.solve.newton_matrix import factorise_entries, solve_entries
 from nivel.native.function import leaf
 
-# row of the derivatives put aside
-BEGIN = 3
+# rows of the derivatives at the last stage, and of those put aside
+END, BEGIN = 2, 3
 
 
 @leaf
@@ -40,12 +40,12 @@ def put_aside(machine):
 
 
 @leaf
-def bring_back(machine, y):
-    """The derivatives and multipliers put aside, and the state y of them, are what the record has again."""
+def bring_back(machine, row, y):
+    """The derivatives of a row with their state y, and the multipliers put aside, are what the record has again."""
     record = record_at(machine)
     shifted, own, residual = record.newton.shifted, record.newton.shifted.coupled, record.residual
     for p in range(shifted.M.shape[0]):
-        shifted.M[p], shifted.D[p], shifted.K[p] = own.M[BEGIN, p], own.D[BEGIN, p], own.K[BEGIN, p]
+        shifted.M[p], shifted.D[p], shifted.K[p] = own.M[row, p], own.D[row, p], own.K[row, p]
     copy(record.newton.lam, residual.lam)
     copy(y, residual.y)
 

@@ -28,7 +28,15 @@ from nivel.integrate.loop.run import (
     evaluate_at,
     run_at,
 )
-from nivel.integrate.radau.coupled_stages import bring_back, factorise_stages, find_stage_parts, put_aside, solve_stages
+from nivel.integrate.radau.coupled_stages import (
+    BEGIN,
+    END,
+    bring_back,
+    factorise_stages,
+    find_stage_parts,
+    put_aside,
+    solve_stages,
+)
 from nivel.integrate.radau.radau_constants import BEND, COLLOCATION, GAMMA, LEFT, LEFT_PAIR, MU, RIGHT, RIGHT_PAIR, A, C
 from nivel.kernels.algebra.analytic import real
 from nivel.kernels.algebra.rows import copy
@@ -370,7 +378,7 @@ def iterate_coupled(evaluate, machine, history, h, end, close):
             status = settle_coupled(evaluate, machine, history, h, end, positions) if is_whole(machine) else OK
             break
         last = change
-    bring_back(machine, run.y)
+    bring_back(machine, BEGIN, run.y)
     return no_convergence(machine, history, worst) if status == NOT_CONVERGED else status
 
 
@@ -442,6 +450,16 @@ def estimate(evaluate, machine, history, h, tolerance):
             smooth(machine, history, h, run.scratch)
             settled = step_control.size(run, run.stages[ERROR]) / tolerance
             error = settling if settled < settling else settled
+    record = record_at(machine)
+    if error <= 1.0 and run.numbers[COUPLED] > 0.0 and record.friction.columns.shape[0] > 0:
+        # A coordinate that friction held at the begin, and not at the end, forgets nothing of what it is wrong by: the derivatives of the
+        # last stage tell. Springs that turn are as stiff at both.
+        shifted = record.newton.shifted
+        bring_back(machine, END, shifted.coupled.state[END])
+        if factorise_shifted(machine, shifted.real, real(h) / GAMMA) == OK:
+            smooth(machine, history, h, run.rate)
+            error = max(error, step_control.size(run, run.stages[ERROR]) / tolerance)
+        bring_back(machine, BEGIN, run.y)
     return error
 
 

@@ -646,8 +646,8 @@ class Machine(Model):
         nothing depends on time: the equilibrium at t = 0 alone. out : result file (NetCDF); in memory if None. force : replace it.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds the states until then).
         """
-        with retold(self.origin.placed):
-            asked, methods = nivel.analysis.statics.free_coordinates.planned(self.record, _given(settings))
+        planned = nivel.analysis.statics.free_coordinates.planned
+        asked, methods = planned(self.record, _given(settings), self.origin.placed)
         self._refuse_target(out, force)
         entries = nivel.analysis.plan.compilation.statics_entries(methods)
         with self._compiled(entries, listener) as compile_seconds:  # what follows takes longer to import

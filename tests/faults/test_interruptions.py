@@ -262,7 +262,7 @@ def test_what_is_written_is_whole_or_as_it_was(tmp_path):
 WRITERS = {
     "native/store.py", "files/target.py", "analysis/progress/journal.py", "analysis/sweep/processes.py", "live/recording.py",
     "fmu/writer.py", "files/fmu_file.py", "files/convex_parts.py", "system/signals/c_instance.py", "view/capture.py",
-    "view/typescript.py",
+    "view/typescript.py", "exchange/freecad.py",
 }  # fmt: skip
 
 

@@ -137,7 +137,7 @@ class Exported(Struct):
         Families of forces call no entries except by addresses in the image.
         """
         loop = self.loop
-        first = (advance.symbol, loop.evaluate.symbol, loop.correct.symbol, loop.step.symbol)
+        first = (advance.symbol, *(each.symbol for each in loop.codes))
         return (*first, *sorted({*self.image.outer.values()} - {*first}))
 
     @property

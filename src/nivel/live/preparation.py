@@ -136,7 +136,7 @@ class LiveRun(Struct, frozen=False):
     def begin(self, live: Live) -> Any:
         """The loop: a function without arguments that returns a status."""
         loop, session = self.loop, self.session(live)
-        codes = [entry.address for entry in (advance, loop.evaluate, loop.correct, loop.step)]
+        codes = [entry.address for entry in (advance, *loop.codes)]
 
         def go_on() -> int:
             return drive(*codes, loop.machine.address, loop.history.address, session.address)

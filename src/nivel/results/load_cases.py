@@ -7,6 +7,7 @@ MOMENT and SPC1 in fields of 16 and 8 columns).
 import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.linalg import qr
@@ -38,8 +39,8 @@ def _held(body: RecoveredBody) -> Held:
     free = rigid_modes(place - place.mean(axis=0), np.arange(6 * count).reshape(-1, 6), 6 * count)
     free[:, 3:] /= np.ptp(place, axis=0).max()
     rows = 6 * np.flatnonzero(np.any(body.body.loads, axis=(1, 2)))[:, None] + np.arange(3)
-    chosen = qr(free[rows.ravel()].T, mode="r", pivoting=True)[1][:6]
-    return sorted((int(body.body.node_ids[row // 6]), int(row % 6) + 1) for row in rows.ravel()[chosen])
+    order: Any = qr(free[rows.ravel()].T, mode="r", pivoting=True)
+    return sorted((int(body.body.node_ids[row // 6]), int(row % 6) + 1) for row in rows.ravel()[order[1][:6]])
 
 
 def _loads(body: RecoveredBody, loads: Array) -> Iterator[tuple[int, Array]]:

@@ -66,7 +66,7 @@ class SystemBuilder:
     control: dict[str, Signal] = field(default_factory=dict)
     behind_signals: dict[str, Coupled] = field(default_factory=dict)
     functions_of: dict[str, int] = field(default_factory=dict)
-    samples: list[tuple[int, LinearFunction, float | None, float]] = field(default_factory=list)
+    samples: list[tuple[int, LinearFunction | TimeFunction, float | None, float]] = field(default_factory=list)
     _owner: str = ""
     _noting: set[int] = field(default_factory=set)
     _noting_states: set[int] = field(default_factory=set)

@@ -61,7 +61,7 @@ def _pulse(function: Varying, path: Path, frames: Steps) -> Pulse | None:
         at_frames, times, inside, interval = _looked_at(function, path, frames)
     elif sampling.period > 0.0:  # held from sample to sample
         count = min(int((ends[-1] - sampling.offset) / sampling.period), MOST_SAMPLES)
-        times = sampling.offset + sampling.period * np.arange(count + 1)
+        times = sampling.offset + sampling.period * np.arange(count + 1, dtype=float)
         inside = np.nan_to_num(function.curve.values(path.at(times)))
         at_frames = inside[np.clip(np.searchsorted(times, ends, side="right") - 1, 0, count)]
         interval = np.clip(np.searchsorted(ends, times, side="right") - 1, 0, len(ends) - 2)
@@ -87,7 +87,7 @@ def _looked_at(function: Varying, path: Path, frames: Steps) -> tuple[Array, Arr
     return np.append(values[0], values[-1, -1]), times, inside, interval
 
 
-def _beyond(frames: Array, at_frames: Array, times: Array, inside: Array, interval: Array) -> Array:
+def _beyond(frames: Array, at_frames: Array, times: Array, inside: Array, interval: NDArray[np.intp]) -> Array:
     """(n,) by how much values `inside` are beyond the frames about their interval, and apart from the curve beyond its doubt."""
     beside = at_frames[np.clip(interval + np.arange(-1, 3)[:, None], 0, len(at_frames) - 1)]
     beyond = np.maximum(inside - beside.max(axis=0), beside.min(axis=0) - inside)

@@ -159,7 +159,7 @@ class _Analysed:
         """Slopes of statics; None where an equilibrium does not follow from the equations at its place alone: states keep what they began
         with, or nothing resists a motion."""
         record = self.machine.record
-        asked, _ = nivel.analysis.statics.free_coordinates.planned(record, self.settings)
+        asked, _ = nivel.analysis.statics.free_coordinates.planned(record, self.settings, lambda fault: fault)
         walk, _ = begun(record, asked, Memory(), chosen_duration="duration" in self.settings)
         walk.go(Listener())
         if walk.outcome != "done":
@@ -197,7 +197,7 @@ class _Analysed:
             try:
                 found = [self.beside(k, share * STEP) for share in (-2.0, -1.0, 1.0, 2.0)]
                 if isinstance(self.plain, LinearModel):
-                    found = [_followed(self.plain, each) for each in found]
+                    found = [_followed(self.plain, each) for each in found if isinstance(each, LinearModel)]
             except NivelError as error:
                 raise ModelError(Fault.at(parameter.path, f"there is no gradient: {error}")) from None
             for label, output in said.items():

@@ -14,7 +14,7 @@ measured evaluations of the slider-crank, chains and pairs of bodies (`benchmark
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from math import ceil, pi
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -115,7 +115,7 @@ def with_integrator(machine: MachineRecord, name: str, **changes: float) -> Mach
 
 def _usual_step(machine: MachineRecord) -> float:
     """Of fixed length, at first: of beams, whose steps are dear, a thousandth of a long run; that of samples of waves in lines."""
-    settings, waves = machine.simulation, [each for each in machine.hydraulics if each.type == "line"]
+    settings, waves = machine.simulation, [cast(Any, each) for each in machine.hydraulics if each.type == "line"]
     step = max(settings.step, settings.duration / FRAMES) if machine.beams else settings.step
     return min([step, *(each.sample_time for each in waves if each.model == "delay")])
 

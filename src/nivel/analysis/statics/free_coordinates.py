@@ -1,6 +1,6 @@
 """Coordinates without stiffness, named free: an equilibrium leaves them where they are placed, and no force may act on them."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -8,7 +8,7 @@ import numpy as np
 from nivel.analysis.plan.choice import choose_coordinates
 from nivel.analysis.plan.plan import Methods, methods_of, with_smooth_contacts
 from nivel.elements.joints.drivers import Driver
-from nivel.errors import SolveError
+from nivel.errors import Fault, SolveError, retold
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.analyses import StaticsSettings
 from nivel.machine.settings.values import settings_of, static_coordinates
@@ -92,9 +92,12 @@ def for_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[Mach
     return neutral.with_simulation(neutral.simulation.replace(coordinates=coordinates)), coordinates
 
 
-def planned(record: MachineRecord, given: Mapping[str, Any]) -> tuple[StaticsSettings, Methods]:
-    """Settings of statics for a machine, and its methods. Raises ModelError."""
+def planned(
+    record: MachineRecord, given: Mapping[str, Any], placed: Callable[[Fault], Fault]
+) -> tuple[StaticsSettings, Methods]:
+    """Settings of statics for a machine, and its methods. placed : gives faults of the machine their places. Raises ModelError."""
     own = {"duration": record.simulation.duration, "coordinates": static_coordinates(record.simulation.coordinates)}
     asked = settings_of(StaticsSettings, "statics", own | dict(given))
     neutral, chosen = for_statics(record, asked)
-    return asked, methods_of(neutral, "newton-euler", chosen)
+    with retold(placed):
+        return asked, methods_of(neutral, "newton-euler", chosen)

@@ -87,7 +87,9 @@ def give_mass(bodies, b, cells, slot, p):
     m, j = load_of(cells, cells.volume[slot])
     c, J, K, L = bodies.centre_b[b], bodies.inertia_b[b], bodies.inertia_origin_b[b], bodies.whitener_b[b]
     own = cells.body[slot]
-    if own[0] == 0.0:
+    if (
+        own[0] == 0.0 or own[0] == bodies.mass[b]
+    ):  # of a body without load in the frame that it has here: coordinates move frames
         own[0] = bodies.mass[b]
         put(own, 1, c)
         for i in range(3):

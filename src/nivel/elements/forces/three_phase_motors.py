@@ -347,8 +347,8 @@ def add_induction_motor(builder: SystemBuilder, force: InductionMotor) -> None:
     ]
     grid = NONE if force.frequency is None else builder.function(force.frequency)
     inductance, rotor = force.stator_leakage + force.inductance - mutual, (mutual, share**2 * force.rotor_resistance)
-    command = force.effort if force.voltage is None else force.voltage
-    add_windings(builder, force, command, 0.0, (inductance, inductance), (*states, grid), rotor)
+    command = force.voltage or force.effort or 0.0
+    add_windings(builder, force, command, 0.0, (inductance, inductance), (states[0], states[1], grid), rotor)
     if force.current_d is not None:
         builder.samples.append((states[0], force.current_d, None, 0.0))
 

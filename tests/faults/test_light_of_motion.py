@@ -172,7 +172,7 @@ def test_a_share_has_an_error_where_it_is_unique():
     time = np.linspace(0.0, 1.0, 21)
     first, second = np.where(time <= 0.5, 100.0, 3.0), np.zeros(21)
     run = SimpleNamespace(
-        result=Numbers(time, first), second=SimpleNamespace(result=Numbers(time, second)), estimate=None
+        result=Numbers(time, first), finer=SimpleNamespace(result=Numbers(time, second)), estimate=None
     )
     off = errors_apart(run, Estimate(time, {}, {}, factor=0.5), "x", ((0.0, 0.5),))
     assert 0 < len(off) < 11

@@ -177,6 +177,7 @@ def test_a_function_that_cannot_be_examined_is_named(tmp_path):
     law = "{python: laws.py, function: wall, arguments: [gap.distance]}"
     text = WALL.replace(LOAD, law)
     result = of_text(text, tmp_path).simulate(verify=True, integrator="radau")
-    (line,) = lines(result, "unexamined")
-    assert "wall.vector.x" in line.text
+    line, pulse = lines(result, "unexamined")
+    assert "wall.vector.x may do within a sixteenth of a step" in line.text
+    assert "a pulse of wall.vector.x between frames" in pulse.text
     assert not result.trust.headline.startswith("exact")

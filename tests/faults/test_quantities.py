@@ -73,7 +73,7 @@ def test_accelerations_of_undamped_beams_are_compared_as_means_from_frame_to_fra
 
     beams = [SimpleNamespace(damping=0.0)]
     second = SimpleNamespace(result=result(1.0))
-    run = SimpleNamespace(machine=SimpleNamespace(beams=beams), result=result(0.0), second=second)
+    run = SimpleNamespace(machine=SimpleNamespace(beams=beams), result=result(0.0), finer=second)
     found = means(run, SimpleNamespace(factor=1.0), "acceleration")
     assert found.error.max() < 1e-12
     assert found.extent.max() < 1e-12

@@ -195,7 +195,7 @@ def _of_ports(component: Any, nodes: Mapping[str, str], used: set[str], place: P
             hint = f"; a chamber of it is needed: {' or '.join(f'`{each}`' for each in whole)}" if whole else ""
             said = f"`{node}` is no node of the circuit{hint}" if hint else unknown_name("node", node, tuple(nodes))
             if "did you mean" not in said and node.isidentifier():
-                is_tank = port == "T" or (type_, port) == ("pump", "A")
+                is_tank = port == "T" or ((type_, port) == ("pump", "A") and "tank" not in nodes.values())
                 meant = "{type: tank}" if is_tank else "{type: volume, volume: 0.2 L}"
                 said += f"; {'for a tank' if is_tank else 'where components meet,'} add `{node}: {meant}`"
             yield where, said

@@ -87,7 +87,7 @@ def test_a_look_costs_little_however_long_the_run_was():
     """Once a second sixty frames are looked at, and the first one: none of those before."""
     sizes = []
 
-    class Counted(Judge):
+    class Counted(Judge, frozen=False):
         def _look(self, frames, kinetic_energy):
             sizes.append(len(frames))
 

@@ -223,6 +223,7 @@ def test_a_data_file_for_which_there_is_no_room_costs_no_work(folder):
 def test_an_export_that_is_cut_off_leaves_nothing(words, folder):
     """Where the disk is full, soon or later, in one sentence."""
     command, whole = [sys.executable, "-B", "-m", "nivel", "export", "machine.yaml", *words], Path(words[1])
+    nivel.load("machine.yaml").simulate(verify=False)  # its machine code is on the disk
     for size in (100, 9_000):
         limits = (size, resource.RLIM_INFINITY)
         limited = partial(resource.setrlimit, resource.RLIMIT_FSIZE, limits)

@@ -23,7 +23,7 @@ from nivel.analysis.gradients.outputs import Parameter
 from nivel.c_library.exported import Exported, Output, refusal
 from nivel.c_library.parameters import Followed, Vary, follow
 from nivel.c_library.writer import PLATFORMS, Platform, known_platform, object_codes, this_platform
-from nivel.files.target import written
+from nivel.files.target import write_file, written
 from nivel.lazy import Struct
 from nivel.machine.units.unit import BASES, UnknownUnitError, unit
 from nivel.native import shipped, store
@@ -272,7 +272,7 @@ def binary(machine: Exported, name: str) -> bytes:
 def _compiled(name: str, compiler: str, sources: Mapping[str, bytes], objects: Mapping[str, bytes]) -> bytes:
     with tempfile.TemporaryDirectory() as folder:
         for file, content in {**sources, **{f"{symbol}.o": code for symbol, code in objects.items()}}.items():
-            (Path(folder) / file).write_bytes(content)
+            write_file(Path(folder) / file, "source of the FMU", content)
         target = Path(folder) / f"unit{PLATFORMS[name].suffix}"
         try:
             link([compiler], Path(folder), [*(f"{symbol}.o" for symbol in objects), "entries.c", "tables.c"], target)

@@ -57,6 +57,7 @@ from nivel.elements.joints.couplings import Belt as Belt
 from nivel.elements.joints.couplings import Coupling as Coupling
 from nivel.elements.joints.couplings import FunctionCoupling as FunctionCoupling
 from nivel.elements.joints.drivers import Driver as Driver
+from nivel.elements.joints.on_beams import OnBeam as OnBeam
 from nivel.files.assembly import Assembly as Assembly
 from nivel.flexible.body.body import Interface as Interface
 from nivel.flexible.body.body import LeftOut as LeftOut

@@ -3,6 +3,7 @@
 # ruff: noqa
 # pyright: reportOptionalMemberAccess=false
 from collections.abc import Mapping
+from contextlib import _GeneratorContextManager
 from dataclasses import asdict, dataclass, field, fields, is_dataclass, replace
 from typing import Any, Final, dataclass_transform
 
@@ -13,6 +14,7 @@ class Late:
     def __getattr__(self, name: str) -> Any: ...
 
 def homes(file: str) -> dict[str, tuple[str, str]]: ...
+def all_kept() -> _GeneratorContextManager[None]: ...
 def provide(places: Mapping[str, str]) -> None: ...
 def provided(subject: str) -> Any: ...
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
@@ -109,6 +111,7 @@ import nivel.elements.circuits.curves
 import nivel.elements.circuits.directional_valves
 import nivel.elements.circuits.fluids
 import nivel.elements.circuits.kind
+import nivel.elements.circuits.volumes
 import nivel.elements.contacts
 import nivel.elements.contacts.heap
 import nivel.elements.contacts.height_field

@@ -1,13 +1,29 @@
 """What is refused before a run because its numbers would mean nothing."""
 
+from cProfile import Profile
+
 import numpy as np
 import pytest
 
 import machines
-from nivel import Body, Contact, Driver, Friction, Joint, MachineRecord, Marker, SimulationSettings, Stop
+from nivel import (
+    Body,
+    Contact,
+    Driver,
+    Friction,
+    Joint,
+    Machine,
+    MachineRecord,
+    Marker,
+    SimulationSettings,
+    SpringDamper,
+    Stop,
+)
+from nivel.analysis.assembly import redundancy
 from nivel.analysis.plan.plan import plan_run
 from nivel.errors import ModelError
 from nivel.machine.laws.time_function import Expression, PythonLaw, Table
+from nivel.system.joint_frames import tilted_axes
 from preparing import prepare
 from running import run
 
@@ -143,3 +159,52 @@ def test_point_mass_counts_three_freedoms_and_never_turns():
     record = prepared.motion.system.record
     np.testing.assert_array_equal(record.bodies.alpha_b[0], 0.0)
     np.testing.assert_allclose(record.bodies.Rddot[0], [0, -9.81, 0], atol=1e-12)
+
+
+def many(shape: str, count: int) -> MachineRecord:
+    """`count` bodies that fly freely, in a chain, in a tree whose axes are nearly parallel here and there, or between springs."""
+    places = [(1.0 * k, 0.0, 0.0) for k in range(count)]
+    bodies = tuple(Body(name=f"b{k}", mass=1.0, inertia=(1.0, 1.0, 1.0), position=places[k]) for k in range(count))
+    names = ["ground", *(body.name for body in bodies)]
+    if shape == "free":
+        return MachineRecord(name=shape, bodies=bodies)
+    if shape == "springs":
+        pairs = [(Marker(body=names[k + 1]), Marker(body=names[k + 2])) for k in range(count - 1)]
+        springs = [
+            SpringDamper(name=f"s{k}", markers=pairs[k], stiffness=1.0, free_length=1.0) for k in range(len(pairs))
+        ]
+        return MachineRecord(name=shape, bodies=bodies, forces=tuple(springs))
+    before = range(count) if shape == "chain" else [(k + 1) // 2 for k in range(count)]
+    turned = [0.0 if shape == "chain" else 1.0 * k for k in range(count)]
+    joints = [
+        Joint(
+            name=f"j{k}",
+            type="revolute",
+            bodies=(names[before[k]], names[k + 1]),
+            point=places[k],
+            axis=(0.0, np.sin(turned[k]), np.cos(turned[k])),
+        )
+        for k in range(count)
+    ]
+    return MachineRecord(name=shape, bodies=bodies, joints=tuple(joints))
+
+
+@pytest.mark.parametrize(
+    "shape", ["springs", *(pytest.param(each, marks=pytest.mark.full) for each in ("free", "chain"))]
+)
+def test_calls_of_a_run_grow_as_its_bodies(shape):
+    """Of 512 bodies less those of 256 they are twice those of 256 less those of 128, and four times where something is quadratic."""
+    calls = []
+    for count in (8, 128, 256, 512):  # the first imports
+        machine, seen = Machine.from_record(many(shape, count)), Profile()
+        seen.runcall(machine.simulate, verify=False, duration=0.01, step=0.01, output_interval=0.01, integrator="rk4")
+        seen.create_stats()
+        calls.append(sum(each[0] for each in seen.stats.values()))
+    assert calls[3] - calls[2] < 2.1 * (calls[2] - calls[1])
+
+
+def test_nearly_parallel_axes_of_a_tree_need_no_dense_matrix(monkeypatch):
+    machine = many("tree", 80)
+    assert tilted_axes(machine, redundancy.MEANT)
+    monkeypatch.setattr(redundancy, "scaled_jacobian", None)
+    assert prepare(machine, "newton-euler").motion.system.machine_rows == 5 * 80

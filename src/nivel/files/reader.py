@@ -11,7 +11,7 @@ from nivel.files.overrides import prefix_of
 from nivel.files.scope import Scope
 from nivel.files.sources import Sources, read_text
 from nivel.files.tree import Path, Tree, read_tree
-from nivel.lazy import Struct, field, replace
+from nivel.lazy import Struct, all_kept, field, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.machine.uses.references import SECTIONS
@@ -30,6 +30,7 @@ def read_machine(
     return parse_machine(read_text(path), str(path), overrides=overrides, allow_code=allow_code)
 
 
+@all_kept()
 def parse_machine(
     text: str,
     file: str = "machine.yaml",

@@ -9,7 +9,7 @@ from nivel.machine.bodies.inertia import mass_properties
 from nivel.machine.core.placement import initial_velocity
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.flexible import flexible_mass
-from nivel.system.tables import Array
+from nivel.system.tables import Array, zeros
 
 # [m] a tenth of a light year: squares and products of longer machines leave the range of numbers
 LARGEST = 1e15
@@ -62,6 +62,9 @@ def _refuse_lost_inertia(machine: MachineRecord, mass: Array, centre: Array, ine
     moments = np.linalg.eigvalsh(inertia)
     owners = {name: beam for beam in machine.beams for name in beam.node_names}
     faults: dict[str, Fault] = {}
+    about_frame = mass * np.einsum("bi,bi->b", centre, centre)
+    lost = about_frame * ROUND_OFF > moments[:, 0]  # which is less than any across the way
+    lost[lost] = [about_frame[k] * ROUND_OFF > _across(centre[k], inertia[k]) for k in np.flatnonzero(lost)]
     for k, body in enumerate(machine.bodies):
         beam, least = owners.get(body.name), float(moments[k, 0] / moments[k, 2])
         if beam is not None and beam.shares_mass and least < -ROUND_OFF:
@@ -76,12 +79,12 @@ def _refuse_lost_inertia(machine: MachineRecord, mass: Array, centre: Array, ine
         elif beam is None and not least > 0.0:
             message = f"its moments of inertia are {', '.join(f'{J:.3g}' for J in moments[k])} kg m²; all have to be greater than zero"
             faults.setdefault(body.name, Fault.at(f"bodies.{body.name}", message))
-        elif (about_frame := float(mass[k] * (centre[k] @ centre[k]))) * ROUND_OFF > _across(centre[k], inertia[k]):
+        elif lost[k]:
             owner = f"bodies.{body.name}" if beam is None else f"beams.{beam.name}"
             message = (
                 f"its centre of mass is {np.linalg.norm(centre[k]):.3g} m from its frame: its moment of inertia {moments[k, 0]:.3g} kg m² "
-                f"is round-off beside the {about_frame:.3g} kg m² of its mass there. Look for a slip of a unit in the mass, the inertia or "
-                f"the centre of mass, or put the frame nearer to it"
+                f"is round-off beside the {about_frame[k]:.3g} kg m² of its mass there. Look for a slip of a unit in the mass, the inertia "
+                f"or the centre of mass, or put the frame nearer to it"
             )
             faults.setdefault(body.name, Fault.at(owner, message))
     if faults:
@@ -106,17 +109,13 @@ def body_tables(machine: MachineRecord, size: float) -> Bodies:
             # nothing turns a point mass and it turns nothing: any inertia will do
             inertia[k] = mass[k] * size**2 * np.eye(3)
     _refuse_lost_inertia(machine, mass, centre, inertia)
-    whitener = np.array([np.linalg.inv(np.linalg.cholesky(_positive(J))) for J in inertia], dtype=np.float64)
-    whitener = whitener.reshape(count, 3, 3)
+    whitener = np.linalg.inv(np.linalg.cholesky(_positive(inertia)))
     square = np.einsum("bi,bi->b", centre, centre)
     steiner = square[:, None, None] * np.eye(3) - np.einsum("bi,bj->bij", centre, centre)
     A = np.zeros((count + 1, 3, 3))
     A[:] = np.eye(3)
     theta = np.zeros((count + 1, 4))
     theta[:, 0] = 1.0
-
-    def vectors() -> Array:
-        return np.zeros((count + 1, 3))
 
     return Bodies(
         mass=mass,
@@ -126,21 +125,16 @@ def body_tables(machine: MachineRecord, size: float) -> Bodies:
         whitener_b=whitener,
         inverse_root_mass=1.0 / np.sqrt(mass),
         gravity=np.array(machine.gravity, dtype=float),
-        R=vectors(),
         theta=theta,
         A=A,
-        Rdot=vectors(),
-        omega=vectors(),
-        omega_b=vectors(),
-        c=vectors(),
         wrench=np.zeros((count + 1, 6)),
-        Rddot=vectors(),
-        alpha_b=vectors(),
+        **zeros("R Rdot omega omega_b c Rddot alpha_b", count + 1, 3),
     )
 
 
 def _positive(inertia: Array) -> Array:
-    """The same (3, 3) with all moments positive. A node of a curved beam may have a negative one by itself: what it has in common with its
-    neighbours makes the mass of the beam positive, and nothing divides by its own."""
+    """The same (B, 3, 3) with all moments positive. A node of a curved beam may have a negative one by itself: what it has in common with
+    its neighbours makes the mass of the beam positive, and nothing divides by its own."""
     moments, axes = np.linalg.eigh(inertia)
-    return inertia if moments[0] > 0.0 else (axes * np.maximum(np.abs(moments), TINY * moments[-1])) @ axes.T
+    raised = axes * np.maximum(np.abs(moments), TINY * moments[:, 2:])[:, None] @ np.swapaxes(axes, 1, 2)
+    return np.where(moments[:, :1, None] > 0.0, inertia, raised)

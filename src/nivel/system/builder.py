@@ -21,11 +21,10 @@ from nivel.machine.laws.varying_value import Table
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.units.formula import LinearFunction
 from nivel.machine.uses.coordinate_reference import Kind, resolve
-from nivel.system.circuit_elements import CircuitTable
 from nivel.system.joint_frames import Directions, Placed, as_placed, marker_place, seen_from
 from nivel.system.laws.functions import FunctionTable, Signal
 from nivel.system.laws.integrated import integrated
-from nivel.system.tables import Array, CoordinateTable, ElementTable, MarkerTable, OutputTable
+from nivel.system.tables import Array, CircuitTable, CoordinateTable, ElementTable, MarkerTable, OutputTable
 
 GROUND = "ground"
 AXES = "xyz"

@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import Fault, located, refuse
-from nivel.flexible.body.body import Interface, ReducedBody
-from nivel.flexible.body.body_file import read_body
 from nivel.flexible.body.invariants import Invariants
 from nivel.kernels.bodies.geometric_stiffening import FIRST_AXIS, SECOND_AXIS
 from nivel.kernels.record.flexible_record import Flexible, ModalTree
-from nivel.lazy import Struct, replace
+from nivel.known import Interface, ReducedBody
+from nivel.lazy import Struct, nivel, replace
 from nivel.machine.bodies.body import Body
 from nivel.machine.bodies.inertia import MassProperties
 from nivel.machine.machine_record import MachineRecord
@@ -68,7 +67,7 @@ def reduced_body(body: Body) -> ReducedBody:
 @lru_cache(maxsize=64)
 def _read(path: str, changed: int) -> ReducedBody:
     del changed  # a file that was written anew is read anew
-    return read_body(path)
+    return nivel.flexible.body.body_file.read_body(path)
 
 
 def bending_bodies(machine: MachineRecord) -> tuple[Bending, ...]:

@@ -4,17 +4,19 @@ The direction is that of the first joint in the file that has it. The markers of
 rotation, before anything is computed: all coordinates and formulations see the same axes.
 """
 
+from collections.abc import Iterator
 from difflib import get_close_matches
+from functools import lru_cache
 
 import numpy as np
 
 from nivel.elements.joints import JOINTS
 from nivel.elements.joints.joint import Joint
 from nivel.errors import Fault, ModelError, gathered, located, refuse
-from nivel.flexible.body.body import Interface
-from nivel.lazy import Struct, dataclass, field
+from nivel.known import Interface
+from nivel.lazy import Struct
 from nivel.machine.core.element import End, GlobalPoint, Marker
-from nivel.machine.core.placement import frame_from_axes, marker_frame
+from nivel.machine.core.placement import Triple, frame_from_axes, marker_frame
 from nivel.machine.core.vectors import cross
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.references import markers_of
@@ -22,6 +24,7 @@ from nivel.system.flexible import reduced_body
 from nivel.system.tables import Array
 
 Placed = tuple[str, Array, Array]
+Pair = tuple[Triple, Triple]
 
 
 def joint_frames(machine: MachineRecord, joint: Joint) -> tuple[Placed, Placed]:
@@ -31,7 +34,7 @@ def joint_frames(machine: MachineRecord, joint: Joint) -> tuple[Placed, Placed]:
         return marker_place(machine, first), marker_place(machine, second)
     assert joint.bodies is not None  # the record was checked
     points = joint.points or (joint_point(machine, joint),) * 2
-    first_axes, second_axes = _global_axes(joint)
+    first_axes, second_axes = _global_axes(joint.type, joint.axes, joint.axis, joint.x_axis, joint.x_direction)
     first, second = (np.array(point, dtype=float) for point in points)
     return (
         seen_from(machine, joint.bodies[0], first, first_axes),
@@ -47,29 +50,33 @@ def slot_frame(machine: MachineRecord, joint: Joint) -> Placed:
     return seen_from(machine, body, joint_point(machine, joint), frame_from_axes(joint.axes[1]))
 
 
-def _global_axes(joint: Joint) -> tuple[Array, Array]:
-    """Global axes of both markers of a joint placed by points: where they are equal, every joint coordinate starts at zero.
+@lru_cache(maxsize=64)  # many joints of a machine have one direction
+def _global_axes(
+    kind: str, both: Pair | None, axis: Triple | None, x_axis: Triple | None, x_direction: Triple | None
+) -> tuple[Array, Array]:
+    """Global axes of both markers of a joint placed by points, not to be changed: where they are equal, every joint coordinate starts at
+    zero.
 
     A universal joint has z along its own arm and x along the other one; a pin in a slot z along the pin; a link that turns about an
     axis x towards its second point.
     """
-    if joint.axes is not None:
-        first, second = (np.array(axis, dtype=float) for axis in joint.axes)
-        match joint.type:
+    if both is not None:
+        first, second = both
+        match kind:
             case "revolute-translational":
                 axes = frame_from_axes(first)
                 return axes, axes
             case "rolling":
-                return frame_from_axes(first, joint.x_axis), frame_from_axes(second)
+                return frame_from_axes(first, x_axis), frame_from_axes(second)
             case "revolute-cylindrical":
                 return frame_from_axes(first), frame_from_axes(second)
             case "translational-universal":
-                assert joint.axis is not None  # the record was checked
-                return frame_from_axes(joint.axis, first), frame_from_axes(second, first)
+                assert axis is not None  # the record was checked
+                return frame_from_axes(axis, first), frame_from_axes(second, first)
         return frame_from_axes(first, second), frame_from_axes(second, first)
-    if joint.axis is None:
+    if axis is None:
         return np.eye(3), np.eye(3)
-    axes = frame_from_axes(joint.axis, joint.x_direction)
+    axes = frame_from_axes(axis, x_direction)
     return axes, axes
 
 
@@ -171,28 +178,40 @@ def joint_point(machine: MachineRecord, joint: Joint) -> Array:
 ROUND_OFF = 1e-15
 
 
-@dataclass
 class Directions:
-    """The directions (3,) that the axes of a machine have had so far, as placed; axes nearer than `tolerance` [rad] have one."""
+    """Directions (3,) that axes of a machine have had so far, as placed; axes nearer than `tolerance` [rad] have one."""
 
-    tolerance: float
-    found: list[Array] = field(default_factory=list)
+    def __init__(self, tolerance: float) -> None:
+        self.tolerance, self.count, self._found = tolerance, 0, np.zeros((8, 3))
+
+    def add(self, z: Array) -> None:
+        """One more direction."""
+        if self.count == len(self._found):
+            self._found = np.concatenate([self._found, np.zeros_like(self._found)])
+        self._found[self.count] = z
+        self.count += 1
+
+    def near(self, z: Array, most: float) -> list[tuple[int, float]]:
+        """Number of each direction that is parallel to z to `most` [rad], and its angle [rad], in their order."""
+        may = np.flatnonzero(np.abs(self._found[: self.count] @ z) >= np.cos(most) - 1e-12).tolist()
+        return [(k, angle) for k in may if (angle := apart(self._found[k], z)) <= most]
 
     def straightened(self, machine: MachineRecord, placed: Placed) -> Placed:
         """The marker with its z axis, as the file places its body, along a direction that is there already; else it becomes one."""
         body, point, frame = placed
         A = axes_as_placed(machine, body)
         z = A @ frame[:, 2]
-        for k in _near(self.found, z, self.tolerance):
-            known = self.found[k]
-            along = known if known @ z > 0.0 else -known
-            off = apart(along, z)
-            if off <= ROUND_OFF:
-                return placed
-            if off <= self.tolerance:
-                return body, point, A.T @ _turn(z, along) @ A @ frame
-        self.found.append(z)
-        return placed
+        k, off = next(iter(self.near(z, self.tolerance)), (self.count, 0.0))
+        if k == self.count:
+            self.add(z)
+        if off <= ROUND_OFF:
+            return placed
+        known = self._found[k]
+        along = known if known @ z > 0.0 else -known
+        return body, point, A.T @ _turn(z, along) @ A @ frame
+
+    def __iter__(self) -> Iterator[Array]:
+        return iter(self._found[: self.count])
 
 
 class Tilt(Struct):
@@ -205,33 +224,24 @@ class Tilt(Struct):
 
 def tilted_axes(machine: MachineRecord, most: float) -> tuple[Tilt, ...]:
     """Axes that are parallel to others to `most` [rad] but not to the tolerance of the machine, the largest angle first."""
-    directions: list[Array] = []
-    names: list[list[str]] = []
+    directions, names = Directions(machine.assembly.parallel), list[list[str]]()
     for joint in machine.joints:
         if not JOINTS[joint.type].of(joint).parallel:
             continue
         body, _, frame = joint_frames(machine, joint)[0]
         z = axes_as_placed(machine, body) @ frame[:, 2]
-        near = _near(directions, z, machine.assembly.parallel)
-        own = next((k for k in near if apart(directions[k], z) <= machine.assembly.parallel), None)
-        if own is None:
-            directions.append(z)
-            names.append([joint.name])
+        near = directions.near(z, directions.tolerance)
+        if near:
+            names[near[0][0]].append(joint.name)
         else:
-            names[own].append(joint.name)
+            directions.add(z)
+            names.append([joint.name])
     out = []
     for k, z in enumerate(directions):
-        for n in _near(directions, z, most):
-            if n != k and apart(directions[n], z) <= most and (len(names[n]), -n) > (len(names[k]), -k):
-                out += [Tilt(name, tuple(names[n]), apart(directions[n], z)) for name in names[k]]
+        for n, angle in directions.near(z, most):
+            if n != k and (len(names[n]), -n) > (len(names[k]), -k):
+                out += [Tilt(name, tuple(names[n]), angle) for name in names[k]]
     return tuple(sorted(out, key=lambda tilt: -tilt.angle))
-
-
-def _near(directions: list[Array], z: Array, most: float) -> list[int]:
-    """Those of the directions that may be parallel to z to `most` [rad]."""
-    if not directions:
-        return []
-    return np.flatnonzero(np.abs(np.array(directions) @ z) >= np.cos(most) - 1e-12).tolist()
 
 
 def apart(a: Array, b: Array) -> float:

@@ -18,9 +18,9 @@ from nivel.elements.joints.kind import (
     PerpendicularAxes,
     PerpendicularDistance,
 )
-from nivel.elements.joints.on_beams import OnBeam
 from nivel.kernels.bodies.coordinate import LAST_ANGLE
 from nivel.kernels.record.record import NONE, Constraints
+from nivel.known import OnBeam
 from nivel.lazy import dataclass, field
 from nivel.machine.uses.coordinate_reference import COORDINATE_KINDS
 from nivel.system.builder import SystemBuilder

@@ -47,7 +47,6 @@ import numpy as np
 
 from nivel.elements.joints.joint import Joint
 from nivel.files.joint_parts import rotors_of
-from nivel.flexible.body.body import moving_surface
 from nivel.known import (
     Beam,
     Belt,
@@ -74,6 +73,7 @@ from nivel.system.builder import SystemBuilder
 from nivel.system.flexible import bending_bodies
 from nivel.system.joint_frames import as_placed, axes_as_placed, marker_place, slot_frame
 from nivel.system.system import System
+from nivel.system.tables import MarkerTable
 
 WALL: Final = 0.2  # of a cylinder, of its inner radius
 SHOE: Final = 0.15  # thickness of the shoes of a track, of the radius of its sprocket
@@ -82,9 +82,10 @@ BARREL: Final = 0.92  # length of a barrel, of that of the retracted cylinder
 
 def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
     """Scene of a result."""
-    joints = [_joint(machine, system, k) for k in range(len(machine.joints))]
+    names = (*system.bodies, "ground")
+    joints = [_joint(machine, names, system, k) for k in range(len(machine.joints))]
     rotors = rotors_of(machine)
-    held: dict[str, list[list[float]]] = {name: [] for name in (*system.bodies, "ground")}
+    held: dict[str, list[list[float]]] = {name: [] for name in names}
     for joint in joints:
         for body, point in zip(joint["bodies"], joint["points"], strict=True):
             if joint["name"] not in rotors:
@@ -207,7 +208,7 @@ def _flexible(machine: MachineRecord) -> Iterator[tuple[int, dict[str, Any]]]:
     """Numbers of flexible bodies that have a surface to draw, and how they look."""
     first = 0
     for each in bending_bodies(machine):
-        surface = moving_surface(each.reduced)
+        surface = nivel.flexible.body.body.moving_surface(each.reduced)
         if surface is not None:
             yield (
                 each.body,
@@ -220,12 +221,11 @@ def _flexible(machine: MachineRecord) -> Iterator[tuple[int, dict[str, Any]]]:
         first += len(each.reduced.eigenvalues)
 
 
-def _joint(machine: MachineRecord, system: System, k: int) -> dict[str, Any]:
+def _joint(machine: MachineRecord, names: tuple[str, ...], system: System, k: int) -> dict[str, Any]:
     joint: Joint = machine.joints[k]
     markers = system.record.markers
     first = int(system.record.joints.first_marker[k])
     pair = (first, first + 1)
-    names = (*system.bodies, "ground")
     out: dict[str, Any] = {
         "name": joint.name,
         "type": joint.type,
@@ -241,12 +241,13 @@ def _joint(machine: MachineRecord, system: System, k: int) -> dict[str, Any]:
 
 def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
     builder = SystemBuilder(machine)  # knows where the ends of forces are
+    names = [*(body.name for body in machine.bodies), "ground"]
     for force in machine.forces:
         ends = _ends(builder, force)
         if ends is None:
             continue
         first, second = ends[0], ends[1]
-        markers, out = builder.markers, _acting(builder, force.name, force.type, ends)
+        markers, out = builder.markers, _acting(names, builder.markers, force.name, force.type, ends)
         match force:
             case TorsionalSpringDamper():
                 out["axis"] = markers.frame[first][:, 2].tolist()
@@ -264,14 +265,13 @@ def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
         kinds = nivel.elements.circuits.actuators
         if isinstance(cylinder, kinds.HydraulicCylinder | kinds.TelescopicCylinder):
             yield {
-                **_acting(builder, cylinder.name, "cylinder", builder.ends(cylinder.ends)),
+                **_acting(names, builder.markers, cylinder.name, "cylinder", builder.ends(cylinder.ends)),
                 "sizes": _sizes(cylinder),
             }
 
 
-def _acting(builder: SystemBuilder, name: str, type_: str, ends: tuple[int, ...]) -> dict[str, Any]:
-    """What acts between markers."""
-    names, markers = [*(body.name for body in builder.machine.bodies), "ground"], builder.markers
+def _acting(names: list[str], markers: MarkerTable, name: str, type_: str, ends: tuple[int, ...]) -> dict[str, Any]:
+    """What acts between markers, on bodies of these names."""
     return {
         "name": name,
         "type": type_,

@@ -8,13 +8,15 @@ from typing import Any, Final, TypeVar, get_args, get_type_hints
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.facts import StateFact
+from nivel.elements.facts import Coupled, StateFact
 from nivel.kernels.bodies.coordinate import ALONG, LAST_ANGLE
 from nivel.kernels.bodies.driven_turn import BASE
 from nivel.kernels.bodies.measure import COMBINED
+from nivel.kernels.record.circuit_record import CircuitTangent
 from nivel.kernels.record.hook import FAMILIES, Family
-from nivel.kernels.record.record import NONE, Bodies, Coordinates, Elements, Markers
-from nivel.lazy import Struct, dataclass, field
+from nivel.kernels.record.record import NONE, Bodies, Circuit, Coordinates, Elements, Markers
+from nivel.known import Node
+from nivel.lazy import Struct, dataclass, field, nivel
 
 Array = NDArray[np.float64]
 AnyRecord = TypeVar("AnyRecord", bound=tuple[Any, ...])
@@ -66,7 +68,7 @@ def work_arrays(bodies: Bodies) -> dict[str, Array]:
     return {name: getattr(bodies, name) for name in names}
 
 
-def padded(rows: list[list[int]] | list[list[float]], fill: float) -> Array:
+def padded(rows: Sequence[Sequence[float]], fill: float) -> Array:
     """(n, longest) with `fill` where a row ends earlier."""
     out = np.full((len(rows), max((len(row) for row in rows), default=0)), fill, dtype=float)
     for k, row in enumerate(rows):
@@ -275,6 +277,40 @@ class ElementTable:
             number=padded([element[1] for element in elements], 0.0),
             **zeros("memory proposal depth depth_rate", *kept),
             **zeros("state state_rate", len(self.states)),
+        )
+
+
+@dataclass
+class CircuitTable:
+    """Nodes by name, fluids as rows of `Circuit.fluid`, that of each component by its number, signals by path with what they depend
+    on."""
+
+    nodes: dict[str, Node] = field(default_factory=dict)
+    fluids: list[tuple[float, ...]] = field(default_factory=list)
+    fluid: dict[str, int] = field(default_factory=dict)
+    depends: dict[str, Coupled] = field(default_factory=dict)
+    signals: dict[str, tuple[int, Coupled]] = field(default_factory=dict)
+
+    def index(self, name: str) -> int:
+        """Number of a node."""
+        return list(self.nodes).index(name)
+
+    def arrays(self) -> Circuit:
+        """The tables."""
+        nodes, count = list(self.nodes.values()), len(self.nodes)
+        flowing = [(node.fluid, node.state if node.is_volume else NONE, node.energy, node.warmth) for node in nodes]
+        return Circuit(
+            node=index_array(flowing, 4),
+            fluid=padded(self.fluids, 0.0),
+            room=padded([nivel.elements.circuits.volumes.filled_room(node.room) for node in nodes], 0.0),
+            secant=np.zeros(1, dtype=np.uint32),
+            guard=np.zeros(2),
+            known=np.zeros((count, 8)),
+            **zeros("kept volume volume_rate pressure density enthalpy temperature", count),
+            inflow=np.zeros(2 * count),
+            power=np.zeros(4),
+            stored=np.zeros(1),
+            tangent=empty(CircuitTangent),
         )
 
 

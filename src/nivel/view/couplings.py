@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.elements.joints.couplings import FunctionCoupling
+from nivel.lazy import nivel
 from nivel.looks.viewpoint import rotation
 from nivel.machine.core.vectors import Array
 from nivel.machine.uses.coordinate_reference import Kind as CoordinateKind
@@ -121,7 +121,7 @@ class _Couplings:
 
 def _followed(known: dict[str, Any]) -> list[str]:
     """The coordinate of a coupling by a function, and those that it follows."""
-    coupling = FunctionCoupling.model_validate(known)
+    coupling = nivel.elements.joints.couplings.FunctionCoupling.model_validate(known)
     return [coupling.coordinate, *coupling.coordinates]
 
 

@@ -291,6 +291,8 @@ def refuse_tilted_axes(machine: MachineRecord, motion: MotionEquations) -> None:
         return
     setting = machine.assembly.replace(parallel=MEANT)
     straight = equations(machine.model_copy(update={"assembly": setting}))
+    if straight.evaluate(0.0, straight.system.start)[0] == OK and _certainly_independent(straight):
+        return
     if _freedoms(machine, motion) >= _freedoms(machine, straight):
         return
     first = tilts[0]

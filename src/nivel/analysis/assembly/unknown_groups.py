@@ -7,7 +7,6 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.elements.joints.on_beams import stretches
 from nivel.kernels.bodies.coordinate import ALONG, LEAN_X, LEAN_Y, TWIST
 from nivel.kernels.elements import friction as columns
 from nivel.kernels.record.record import MODAL, NONE, POINT_ON_BEAM, Record
@@ -27,7 +26,11 @@ class Carrying:
         for n, (child, parent, *_) in enumerate(record.tree.node.tolist()):
             rail = nivel.system.beam_tables.rail_of(record, n)
             turned = record.tree.node[n, 2] != POINT_ON_BEAM
-            self._ways[child] = self._sliding(n, stretches(rail, turned=turned)) if rail else self._hanging(n, parent)
+            self._ways[child] = (
+                self._sliding(n, nivel.elements.joints.on_beams.stretches(rail, turned=turned))
+                if rail
+                else self._hanging(n, parent)
+            )
 
     def of(self, body: int) -> frozenset[int]:
         """All nodes of the tree that may ever move a body."""
@@ -208,7 +211,7 @@ def _together(system: System, rows: Iterable[int], bodies: Iterable[int]) -> Ite
     carried = set(record.tree.slider[:, 1].tolist())
     turned = any(coordinates.what[q, 0] in (LEAN_X, LEAN_Y, TWIST) for q in terms)
     for rail in {tuple(ends[q][1:]) for q, along in sliding.items() if along not in carried}:
-        for nodes in stretches(rail, turned=turned):
+        for nodes in nivel.elements.joints.on_beams.stretches(rail, turned=turned):
             yield frozenset(always.union(nodes))
 
 

@@ -14,6 +14,7 @@ from nivel.analysis.assembly.equations import MotionEquations
 from nivel.errors import Fault, ModelError, refuse
 from nivel.kernels.core.status import OK
 from nivel.kernels.elements import friction as columns
+from nivel.machine.core.vectors import cross
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.system import Array, System
 
@@ -120,13 +121,11 @@ def whitened(system: System, free: NDArray[np.bool_], lightest: float) -> Array:
     """
     bodies, count = system.record.bodies, system.body_count
     M = np.zeros((count, 6, 6))
-    for b in range(count):
-        m, c, A = bodies.mass[b], bodies.centre_b[b], bodies.A[b]
-        cross = np.array([[0.0, -c[2], c[1]], [c[2], 0.0, -c[0]], [-c[1], c[0], 0.0]])
-        M[b, :3, :3] = m * np.eye(3)
-        M[b, :3, 3:] = -m * A @ cross
-        M[b, 3:, :3] = M[b, :3, 3:].T
-        M[b, 3:, 3:] = bodies.inertia_origin_b[b]
+    mass = bodies.mass[:, None, None]
+    M[:, :3, :3] = mass * np.eye(3)
+    M[:, :3, 3:] = -mass * bodies.A[:count] @ -cross(bodies.centre_b[:, None], np.eye(3))
+    M[:, 3:, :3] = np.swapaxes(M[:, :3, 3:], 1, 2)
+    M[:, 3:, 3:] = bodies.inertia_origin_b
     M[:, :3, :] *= system.size
     M[:, :, :3] *= system.size
     M /= np.max(np.abs(M), initial=np.finfo(float).tiny)

@@ -7,14 +7,13 @@ from nivel.analysis.plan import choice
 from nivel.analysis.plan.beam_facts import integrator_of
 from nivel.analysis.plan.choice import choose_coordinates
 from nivel.analysis.plan.settings import RunSettings, complete, refuse_combinations
-from nivel.elements.contacts.contact import Contact, Contacts
-from nivel.elements.forces.friction import Friction
 from nivel.errors import Fault, ModelError, refuse
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.facts import IntegratorFacts
 from nivel.integrate.stabilise import STABILISATIONS, Stabilisation
 from nivel.judge.before import refusals
-from nivel.lazy import Struct, nivel, replace
+from nivel.known import Contact, Contacts, Friction
+from nivel.lazy import Struct, all_kept, nivel, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings
 from nivel.methods import chooses
@@ -117,6 +116,7 @@ class Plan(Struct):
         return STABILISATIONS[self.settings.stabilisation]
 
 
+@all_kept()
 def plan_run(machine: MachineRecord, given: Collection[str] = (), *, stepwise: bool = False) -> Plan:
     """The run of `machine` with its own settings. given : settings that were asked for this run, and must have an effect.
 

@@ -28,7 +28,7 @@ from nivel.judge.before.refusals import deep_starts, moved_nodes, struck_nodes, 
 from nivel.kernels.core.arrays import copied
 from nivel.kernels.record.record import Record
 from nivel.known import Beam
-from nivel.lazy import Struct, nivel, replace
+from nivel.lazy import Struct, all_kept, nivel, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
 from nivel.motion.shared_loads import share_loads
@@ -112,6 +112,7 @@ class Prepared(Struct):
         return bool(self.integrator.guarded and self.motion.system.nodes)
 
 
+@all_kept()
 def prepare(
     methods: Methods,
     given: Assembled | None = None,

@@ -27,7 +27,7 @@ from nivel.judge.after.other_elements import Compared, Pair
 from nivel.judge.after.subject import Run, run_of
 from nivel.judge.before.refusals import sampled_times
 from nivel.known import SoilUnit
-from nivel.lazy import Struct, nivel, replace
+from nivel.lazy import Struct, all_kept, nivel, replace
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.estimate import TIMES, estimate_errors
 from nivel.results.memory import Memory
@@ -436,6 +436,7 @@ def attempt(plan: Plan, sink: Memory | Store, options: Options, prepared: Prepar
     return Attempt(plan, prepared, finished, sink.result(), frames, verified, found)
 
 
+@all_kept()
 def header_of(plan: Plan, prepared: Prepared, source: str) -> Header:
     """The header of the result of a plan."""
     attributes = run_attributes(plan.asked or plan.machine, source, prepared, plan.settings, plan.reason)

@@ -10,7 +10,7 @@ import numpy as np
 
 from nivel.judge.after import checks
 from nivel.judge.after.subject import Equilibria, Motion, Positions, Run, Subject
-from nivel.lazy import Struct
+from nivel.lazy import Struct, all_kept
 from nivel.results.result import Result
 from nivel.results.scales import Readable
 from nivel.results.trust import Item, Threshold, Trust, plain, worst
@@ -90,6 +90,7 @@ def every_check() -> tuple[Check[Any, Any], ...]:
 
 # a run that grew beyond all bounds is red, not a warning
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")
+@all_kept()
 def assess(subject: Subject, given: Mapping[str, Any] | None = None) -> Trust:
     """The trust report of a subject.
 

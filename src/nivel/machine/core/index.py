@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 from nivel.lazy import Struct
-from nivel.machine.core.record import GROUND, entry
+from nivel.machine.core.record import entry
 
 Place = tuple[str | int, ...]
 SECTIONS: Final = (
@@ -90,11 +90,6 @@ class Index(Struct, eq=False):
             control=_by_name(machine, "control"),
             sensors=_by_name(machine, "sensors"),
         )
-
-    @property
-    def bodies_and_ground(self) -> tuple[str, ...]:
-        """Everything that a marker can be on."""
-        return (*self.bodies, GROUND)
 
     def body_of(self, end: Any) -> str | None:
         """The body that a marker is on, given by its name or written out; None where that is not known."""

@@ -76,9 +76,8 @@ def frame_from_axes(axis: ArrayLike, x_axis: ArrayLike | None = None) -> Array:
 
 def most_perpendicular(direction: Array) -> Array:
     """The parent axis (3,) with the smallest share of `direction` (3,); among equals the first."""
-    share = np.abs(_unit(direction))
-    chosen = int(np.argmax(share <= share.min() + TIE))
-    return np.eye(3)[chosen]
+    share = [abs(each) for each in _unit(direction).tolist()]
+    return np.eye(3)[next((k for k in range(3) if share[k] <= min(share) + TIE), 0)]
 
 
 def angle_between(first: ArrayLike, second: ArrayLike) -> float:
@@ -88,8 +87,8 @@ def angle_between(first: ArrayLike, second: ArrayLike) -> float:
 
 
 def _unit(vector: Array) -> Array:
-    vector = vector / np.abs(vector).max()  # no overflow in the norm
-    return vector / np.linalg.norm(vector)
+    vector = vector / max(map(abs, vector.tolist()))  # no overflow in the norm
+    return vector / math.sqrt(vector @ vector)
 
 
 def _perpendicular(vector: Array, to: Array) -> Array:

@@ -4,6 +4,7 @@ They are found by what they are, in the fields of its parts and of the parts of 
 """
 
 from collections.abc import Iterator
+from types import NoneType
 
 from nivel.known import Block, Driver, State
 from nivel.lazy import Struct, nivel
@@ -12,6 +13,7 @@ from nivel.machine.laws.python_law import PythonLaw
 from nivel.machine.laws.varying_value import Expression, Table
 
 AXES = "xyz"
+NUMBERS_AND_WORDS = float, int, str, NoneType
 
 
 class Sampling(Struct):
@@ -67,7 +69,9 @@ def _of_block(section: str, block: Block) -> Iterator[MachineFunction]:
 def functions_in(record: Record) -> Iterator[tuple[str, Expression | Table | PythonLaw]]:
     """The functions in the fields of a record, each with its place, `vector.x`."""
     for field in type(record).model_fields:
-        yield from _in_value(field, getattr(record, field))
+        value = getattr(record, field)
+        if not isinstance(value, NUMBERS_AND_WORDS):
+            yield from _in_value(field, value)
 
 
 def _in_value(place: str, value: object) -> Iterator[tuple[str, Expression | Table | PythonLaw]]:
@@ -80,7 +84,8 @@ def _in_value(place: str, value: object) -> Iterator[tuple[str, Expression | Tab
         case tuple() | list():
             names = AXES if len(value) == 3 else range(1, len(value) + 1)
             for name, each in zip(names, value, strict=True):
-                yield from _in_value(f"{place}.{name}", each)
+                if not isinstance(each, NUMBERS_AND_WORDS):
+                    yield from _in_value(f"{place}.{name}", each)
         case dict():
             for name, each in value.items():
                 yield from _in_value(f"{place}.{name}", each)

@@ -304,7 +304,8 @@ def _of_end(end: Any, index: Index, place: Place) -> Faults:
 def _unknown_body(name: Any, index: Index, place: Place) -> Faults:
     beam, dot, station = name.partition(".") if isinstance(name, str) else ("", "", "")
     if beam not in index.beams or name in index.bodies:
-        yield from _unknown(name, index.bodies_and_ground, "body", place)
+        if isinstance(name, str) and name not in index.bodies:
+            yield from _unknown(name, (*index.bodies, GROUND), "body", place)
         return
     stations = ", ".join(f"`{each}`" for each in index.beams[beam])
     what = f"the beam `{beam}` has no station `{station}`" if dot else f"`{beam}` is a beam; a place on it is needed"
@@ -315,7 +316,7 @@ def _unknown_marker(name: Any, index: Index, place: Place) -> Faults:
     if isinstance(name, str) and name in index.bodies and "." in name:
         yield place, f"`{name}` is a station of a beam; name a marker on it: `markers: {{tip: {{body: {name}}}}}`"
         return
-    yield from _unknown(name, tuple(index.markers), "marker", place)
+    yield from _unknown(name, index.markers, "marker", place)
 
 
 def _unknown(name: Any, known: Collection[str], what: str, place: Place) -> Faults:

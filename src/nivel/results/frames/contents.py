@@ -73,6 +73,8 @@ def resolved(header: Header) -> tuple[dict[str, Variable], dict[str, tuple[str, 
     rename = {dim: f"{dim}_name" for dim in layout.coordinates if dim in {each.name for each in layout.variables}}
     variables = {
         each.name: replace(each, dims=tuple(rename.get(dim, dim) for dim in each.dims))
+        if not rename.keys().isdisjoint(each.dims)
+        else each
         for each in layout.variables
         if each.columns.stop > each.columns.start
     }

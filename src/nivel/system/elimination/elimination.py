@@ -4,9 +4,10 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from nivel.lazy import Struct
+from nivel.machine.core.vectors import Whole
 from nivel.system.elimination.factor_plan import minimum_degree
 
 Index = NDArray[np.uint32]
@@ -49,72 +50,64 @@ def _planned(rows: Groups, block_row: tuple[int, ...], block_body: tuple[int, ..
             neighbours[g] |= around - {g}
     groups, _ = minimum_degree([len(group) for group in rows], neighbours, {})
     order = [row for g in groups for row in rows[g]]
-    position = {row: k for k, row in enumerate(order)}
-    at = [position[row] for row in block_row]
-
-    columns: list[set[int]] = [{k} for k in range(count)]
-    pairs: list[tuple[int, int, int, int]] = []
-    for blocks in of_body.values():
-        for n, a in enumerate(blocks):
-            for b in blocks[: n + 1]:
-                low, high = (at[a], at[b]) if at[a] < at[b] else (at[b], at[a])
-                columns[high].add(low)
-                pairs.append((high, low, a, b))
-                if a != b and high == low:
-                    pairs.append((high, low, b, a))  # a row that touches a body twice
-    S_start, S_row = _compressed(in_order := [sorted(column) for column in columns])
-    places = ((k, row) for k, column in enumerate(in_order) for row in column)
-    entry = {place: number for number, place in enumerate(places)}
-    pair = sorted((entry[high, low], a, b) for high, low, a, b in pairs)
-    P = _row_patterns(columns)
-    L_columns: list[list[int]] = [[] for _ in range(count)]
-    for k, pattern in enumerate(P):
-        for j in pattern:
-            L_columns[j].append(k)
-    L_start, L_row = _compressed(L_columns)
-    filled = L_start[:-1].tolist()
-    P_entry = []
-    for pattern in P:
-        for j in pattern:
-            P_entry.append(filled[j])
-            filled[j] += 1
-    P_start, P_column = _compressed(P)
+    position = np.empty(count, dtype=np.int64)
+    position[order] = np.arange(count)
+    at = position[list(block_row)]
+    # (entry by row and column of S, the two blocks) of all pairs of blocks of one body
+    pairs = [np.zeros((0, 4), dtype=np.int64)]
+    for size in {len(blocks) for blocks in of_body.values()}:
+        blocks = np.array([each for each in of_body.values() if len(each) == size])
+        a, b = (blocks[:, k].ravel() for k in np.tril_indices(size))
+        pairs.append(np.column_stack([np.maximum(at[a], at[b]), np.minimum(at[a], at[b]), a, b]))
+        twice = (a != b) & (at[a] == at[b])  # a row that touches a body twice
+        pairs.append(np.column_stack([at[a], at[b], b, a])[twice])
+    high, low, a, b = np.concatenate(pairs).T
+    diagonal = np.arange(count) * (count + 1)
+    keys, entry = np.unique(np.concatenate([high * count + low, diagonal]), return_inverse=True)
+    pair = np.column_stack([a, b, entry[: len(a)]])[np.lexsort([b, a, entry[: len(a)]])]
+    S_start, S_row = _starts(keys // count, count), keys % count
+    P_start, P_column = _row_patterns(S_start, S_row)
+    by_column = np.argsort(P_column, kind="stable")
+    P_entry = np.empty_like(by_column)
+    P_entry[by_column] = np.arange(len(by_column))
+    row_of = np.repeat(np.arange(count), np.diff(P_start))
     return Elimination(
         order=_index(order),
-        pair=_index([(a, b, target) for target, a, b in pair]).reshape(-1, 3),
-        S_start=S_start,
-        S_row=S_row,
-        L_start=L_start,
-        L_row=L_row,
-        P_start=P_start,
-        P_column=P_column,
+        pair=_index(pair),
+        S_start=_index(S_start),
+        S_row=_index(S_row),
+        L_start=_index(_starts(P_column, count)),
+        L_row=_index(row_of[by_column]),
+        P_start=_index(P_start),
+        P_column=_index(P_column),
         P_entry=_index(P_entry),
     )
 
 
-def _row_patterns(columns: Sequence[set[int]]) -> list[list[int]]:
+def _starts(ascending: Whole, count: int) -> Whole:
+    """(count + 1,) where each of the numbers from 0 on begins."""
+    return np.cumsum(np.bincount(ascending + 1, minlength=count + 1))
+
+
+def _row_patterns(S_start: Whole, S_row: Whole) -> tuple[Whole, Whole]:
     """Pattern of every row of L by climbing the elimination tree from the entries of S (Davis 2006, §4.3)."""
-    count = len(columns)
-    parent = [-1] * count
-    patterns: list[list[int]] = []
-    for k in range(count):
+    columns, ends = S_row.tolist(), S_start.tolist()
+    parent = [-1] * (len(ends) - 1)
+    found, starts = list[int](), [0]
+    for k in range(len(parent)):
         seen = {k}
-        for start in columns[k]:
+        for start in columns[ends[k] : ends[k + 1]]:
             i = start
-            while i not in seen and i < k:
+            while i not in seen:
                 seen.add(i)
                 if parent[i] == -1:
                     parent[i] = k
                 i = parent[i]
-        patterns.append(sorted(seen - {k}))
-    return patterns
+        seen.remove(k)
+        found += sorted(seen)
+        starts.append(len(found))
+    return np.array(starts), np.array(found, dtype=np.int64)
 
 
-def _compressed(lists: Sequence[Sequence[int]]) -> tuple[Index, Index]:
-    start = np.zeros(len(lists) + 1, dtype=np.uint32)
-    start[1:] = np.cumsum([len(entries) for entries in lists])
-    return start, _index([value for entries in lists for value in entries])
-
-
-def _index(values: Sequence[object]) -> Index:
-    return np.ascontiguousarray(np.array(values, dtype=np.uint32))
+def _index(values: ArrayLike) -> Index:
+    return np.ascontiguousarray(values, dtype=np.uint32)

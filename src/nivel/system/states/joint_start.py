@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nivel.elements.joints.kind import Seen, TreeJoint
-from nivel.elements.joints.on_beams import between, element_of
 from nivel.kernels.record.record import NONE, Coordinates, Markers
-from nivel.lazy import Struct, scipy
+from nivel.lazy import Struct, nivel, scipy
 from nivel.machine.core import orientation
 from nivel.machine.core.vectors import cross
 from nivel.machine.machine_record import MachineRecord
@@ -79,6 +78,7 @@ def _line(rail: Rail, e: int, *, rates: bool = False) -> CubicHermiteSpline:
 def _axis(rail: Rail, e: int, sigma: float, rate: float, k: int) -> tuple[Array, Array]:
     """Axis k of the sections between the nodes e and e + 1, and its rate at a place that moves with a rate."""
     axes = rail.axes[:, :, k]
+    between = nivel.elements.joints.on_beams.between
     axis, moving = between(rail.station, axes, e), between(rail.station, np.cross(rail.omega, axes), e)
     return axis(sigma), moving(sigma) + rate * axis(sigma, 1)
 
@@ -88,7 +88,7 @@ def _nearest(rail: Rail, p: Array) -> tuple[float, int]:
     `nivel.kernels.bodies.rail.closest`."""
     sigma = rail.near
     for _ in range(MOST):
-        e = element_of(rail.station, sigma)
+        e = nivel.elements.joints.on_beams.element_of(rail.station, sigma)
         line = _line(rail, e)
         d, T = p - line(sigma), line(sigma, 1)
         most = 2.0 * (rail.station[e + 1] - rail.station[e])
@@ -96,7 +96,7 @@ def _nearest(rail: Rail, p: Array) -> tuple[float, int]:
         sigma += change
         if abs(change) <= CLOSE * rail.station[-1]:
             break
-    return sigma, element_of(rail.station, sigma)
+    return sigma, nivel.elements.joints.on_beams.element_of(rail.station, sigma)
 
 
 class Node(Struct):
@@ -215,10 +215,8 @@ def joint_start(
             v += velocities
             joint = tree.turn(positions, number[n]) if tree.turn else orientation.euler_parameters_from_matrix(seen.Q)
         turned[node.child] = orientation.product(orientation.product(turned[node.parent], theta[n]), joint)
-    own_theta = np.array(
-        [orientation.product(orientation.conjugate(e), f) for e, f in zip(turned, bodies.theta, strict=False)]
-    )
-    return JointStart(np.array(q), np.array(v), number, first, theta, own_theta.reshape(-1, 4), turned)
+    own_theta = orientation.product(orientation.conjugate(turned[: len(bodies.theta)]), bodies.theta)
+    return JointStart(np.array(q), np.array(v), number, first, theta, own_theta, turned)
 
 
 def _rail(bodies: Poses, markers: Markers, frames: Frames, coordinates: Coordinates, along: int) -> Rail:

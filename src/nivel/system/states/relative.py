@@ -8,13 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.elements.joints.joint import Joint
-from nivel.elements.joints.on_beams import OnBeam
 from nivel.kernels.bodies.coordinate import ALONG
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import COMPLETE, NONE, Bodies, Constraints, Frames, Hooks, Markers, Record, Saddle
 from nivel.kernels.record.record import Friction as FrictionTables
 from nivel.kernels.tree import tree_outputs
-from nivel.known import Friction, TransmissionLoss
+from nivel.known import Friction, OnBeam, TransmissionLoss
 from nivel.machine.bodies.inertia import mass_of
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings.run import SimulationSettings

@@ -2,14 +2,17 @@
 
 python benchmarks/against_pinocchio.py write states.json     where nivel is installed
 python benchmarks/against_pinocchio.py check states.json     where pin is installed
+python benchmarks/against_pinocchio.py time                  where both are: CPU time a state of a chain of seven, in one process
 """
 
 import json
 import sys
+import time
 
 import numpy as np
 
 TREES, STATES, BODIES, GRAVITY = 20, 10, 7, (0.3, -0.2, -9.81)
+ROWS, REPEATS = 512, 9
 
 
 def tree(rng):
@@ -29,37 +32,89 @@ def tree(rng):
 
 def write(path):
     """Random states of random trees, with M and the bias of nivel."""
-    import nivel
-
     rng, out = np.random.default_rng(7), []
     for _ in range(TREES):
         data = tree(rng)
-        names = [f"b{k}" for k in range(len(data["parent"]))]
-        bodies = [
-            nivel.Body(name=n, mass=m, inertia=tuple(i), position=tuple(c))
-            for n, m, i, c in zip(names, data["mass"], data["inertia"], data["centre"], strict=True)
-        ]
-        joints = [
-            nivel.Joint(
-                name=f"j{k}",
-                type=data["kind"][k],
-                bodies=("ground" if parent < 0 else names[parent], names[k]),
-                point=tuple(data["point"][k]),
-                axis=tuple(data["axis"][k]),
-            )
-            for k, parent in enumerate(data["parent"])
-        ]
-        machine = nivel.Machine("tree", bodies=bodies, joints=joints, gravity=GRAVITY)
-        mechanics = machine.mechanics(coordinates="relative")
+        mechanics = _mechanics(data)
         states = []
         for _ in range(STATES):
-            q, v = rng.normal(size=(2, len(names)))
+            q, v = rng.normal(size=(2, len(data["parent"])))
             # a revolute is zero where its x axes coincide, which is where it is drawn
             M, h = mechanics.mass_matrix(mechanics.start + q), mechanics.bias(mechanics.start + q, v)
             states.append({"q": q.tolist(), "v": v.tolist(), "M": M.tolist(), "bias": h.tolist()})
         out.append({"tree": data, "names": mechanics.names, "states": states})
     with open(path, "w", encoding="utf-8") as file:
         json.dump(out, file)
+
+
+def _mechanics(data):
+    """The tree in nivel."""
+    import nivel
+
+    names = [f"b{k}" for k in range(len(data["parent"]))]
+    bodies = [
+        nivel.Body(name=n, mass=m, inertia=tuple(i), position=tuple(c))
+        for n, m, i, c in zip(names, data["mass"], data["inertia"], data["centre"], strict=True)
+    ]
+    joints = [
+        nivel.Joint(
+            name=f"j{k}",
+            type=data["kind"][k],
+            bodies=("ground" if parent < 0 else names[parent], names[k]),
+            point=tuple(data["point"][k]),
+            axis=tuple(data["axis"][k]),
+        )
+        for k, parent in enumerate(data["parent"])
+    ]
+    machine = nivel.Machine("tree", bodies=bodies, joints=joints, gravity=GRAVITY)
+    return machine.mechanics(coordinates="relative")
+
+
+def compare_times():
+    """Least CPU time a state of both, in turn; Pinocchio is called once a state, as its interface of Python has it."""
+    import pinocchio as pin
+
+    rng = np.random.default_rng(7)
+    data = next(each for each in iter(lambda: tree(rng), None) if len(each["parent"]) == BODIES)
+    data |= {"parent": [*range(-1, BODIES - 1)], "kind": ["revolute"] * BODIES}
+    mechanics, (model, _) = _mechanics(data), _model(pin, data)
+    there, last = model.createData(), model.njoints - 1
+    q, v, x = rng.normal(size=(3, ROWS, BODIES))
+    Q = mechanics.start + q
+
+    def jacobian(each):
+        pin.computeJointJacobians(model, there, each)
+        pin.getJointJacobian(model, there, last, pin.LOCAL_WORLD_ALIGNED)
+
+    asked = {
+        "mass_matrix": (lambda: mechanics.mass_matrix(Q), lambda: [pin.crba(model, there, each) for each in q]),
+        "bias": (
+            lambda: mechanics.bias(Q, v),
+            lambda: [pin.nonLinearEffects(model, there, *each) for each in zip(q, v, strict=True)],
+        ),
+        "inverse_dynamics": (
+            lambda: mechanics.inverse_dynamics(Q, v, x),
+            lambda: [pin.rnea(model, there, *each) for each in zip(q, v, x, strict=True)],
+        ),
+        "forward_dynamics": (
+            lambda: mechanics.forward_dynamics(Q, v, x),
+            lambda: [pin.aba(model, there, *each) for each in zip(q, v, x, strict=True)],
+        ),
+        "derivatives": (
+            lambda: mechanics.inverse_dynamics_derivatives(Q, v, x),
+            lambda: [pin.computeRNEADerivatives(model, there, *each) for each in zip(q, v, x, strict=True)],
+        ),
+        "jacobian": (lambda: mechanics.jacobian(f"b{BODIES - 1}", Q), lambda: [jacobian(each) for each in q]),
+    }
+    for name, calls in asked.items():
+        least = [np.inf, np.inf]
+        for _ in range(REPEATS):
+            for k, call in enumerate(calls):
+                start = time.process_time()
+                call()
+                least[k] = min(least[k], (time.process_time() - start) / ROWS)
+        ours, theirs = 1e6 * np.array(least)
+        print(f"{name:17} {ours:6.2f} us, Pinocchio {theirs:6.2f} us, ratio {ours / theirs:.2f}")
 
 
 def check(path):
@@ -105,4 +160,4 @@ def _model(pin, data):
 
 
 if __name__ == "__main__":
-    {"write": write, "check": check}[sys.argv[1]](sys.argv[2])
+    {"write": write, "check": check, "time": compare_times}[sys.argv[1]](*sys.argv[2:])

@@ -776,7 +776,8 @@ class Machine(Model):
 
     def mechanics(self, *, coordinates: str | None = None, listener: Listener | None = None) -> Mechanics:
         """The machine as robotics knows it, to be asked for many states: `names`, `start`, `mass_matrix(q)`, `bias(q, v)`,
-        `inverse_dynamics(q, v, a)`, `forward_dynamics(q, v, tau)`, `jacobian(point, q)`, `jacobian_bias(point, q, v)`.
+        `inverse_dynamics(q, v, a)`, `forward_dynamics(q, v, tau)`, `inverse_dynamics_derivatives(q, v, a)`, `jacobian(point, q)`,
+        `jacobian_bias(point, q, v)`.
 
         coordinates : relative (default where there are joints) or absolute. Contacts, and friction of joints that sticks, have no part in
         them: `left_out` names them. Raises ModelError where the machine cannot be assembled.
@@ -786,7 +787,8 @@ class Machine(Model):
             faults = nivel.judge.before.analyses.not_smooth(record)
             refuse(each for each in faults if each.path.partition(".")[0] not in ("control", "states"))
             plain, methods = nivel.analysis.plan.plan.neutral(record, coordinates or "auto")
-        with self._compiled(nivel.analysis.plan.compilation.linear_entries(methods), listener):
+        entries = nivel.analysis.plan.compilation.linear_entries(methods, nivel.analysis.plan.compilation.MANY_STATES)
+        with self._compiled(entries, listener):
             return nivel.analysis.inverse.mechanics.Mechanics(
                 plain, nivel.analysis.run.prepared_state.at_start(methods), left_out
             )

@@ -1,7 +1,5 @@
 """A study in Python: a study file with its machine, its variants, and what they were found to be."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager

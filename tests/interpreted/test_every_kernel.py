@@ -149,6 +149,18 @@ def differentiate(here):
     assert np.isfinite(matrix).all()
 
 
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_mechanics(coordinates):
+    """What robotics asks for, of a loop in coordinates with Euler parameters and in those of joints, at two states."""
+    mechanics = nivel.load(ROOT / "examples/mechanisms/four-bar.yaml").mechanics(coordinates=coordinates)
+    q, v = np.tile(mechanics.start, (2, 1)), np.array([[0.3], [0.4]])
+    efforts = mechanics.inverse_dynamics(q, v, v)
+    np.testing.assert_allclose(mechanics.forward_dynamics(q, v, efforts), v, rtol=1e-9)
+    (by_q, by_v), body = mechanics.inverse_dynamics_derivatives(q, v, v), mechanics._machine.bodies[0].name
+    for each in (by_q, by_v, mechanics.jacobian(body, q)):
+        assert np.isfinite(each).all()
+
+
 @pytest.mark.parametrize("name", force_zoo.ELEMENTS)
 def test_elements(name, rng):
     """Forces, couplings and drivers, and their exact derivatives."""

@@ -1,7 +1,5 @@
 """Facts of a result: `nivel explain`, how far it can be trusted; `nivel loads`, peaks, power and work, rainflow cycles of signals."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Kinds of elements by their words in machine files. A kind is found by what the file in its room says; nothing lists it."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, reduce

@@ -3,8 +3,6 @@
 Of a search also the values that it found, how certain they are, and how it came to them.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator
 from dataclasses import asdict

@@ -5,8 +5,6 @@ Toe is positive where wheels point inwards in front, camber where they lean outw
 radius of its tyre; wheels do not spin. Slopes are those of the polynomials through equilibria at Chebyshev's nodes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from itertools import pairwise
 from typing import Final
@@ -44,7 +42,7 @@ class Manoeuvre(Struct):
     y: Array
 
     @classmethod
-    def of(cls, name: str, run: Result, body: int, driver: str) -> Manoeuvre:
+    def of(cls, name: str, run: Result, body: int, driver: str) -> "Manoeuvre":
         """Of a run, the body of this number and the block that drives."""
         p, v, a = (run.array(each)[:, body] for each in ("position", "velocity", "acceleration"))
         e0, e1, e2, e3 = run.array("orientation")[:, body].T
@@ -222,7 +220,7 @@ class Curves(Struct):
     trust: str
 
     @classmethod
-    def of(cls, run: Result, wheels: list[Wheel], size: float) -> Curves:
+    def of(cls, run: Result, wheels: list[Wheel], size: float) -> "Curves":
         """Of equilibria along WAY."""
         kept = np.searchsorted(run.time, np.arange(RISE, RISE + NODES + 1) - LEVEL)
         lengths = [each for each in run.names if each.startswith("force.") and each.endswith(".length")]

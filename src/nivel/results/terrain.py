@@ -3,8 +3,6 @@
 A height is kept in whole steps of a 128th of the side of a cell, from where it was at the start; so moves can be taken back exactly.
 """
 
-from __future__ import annotations
-
 import base64
 import json
 from collections.abc import Iterable, Mapping
@@ -118,7 +116,7 @@ class TerrainHistory(Struct):
         moved = np.bincount(np.cumsum(self.nodes[:end]), self.moves[:end], self.start.size)
         return np.asarray(self.start + self.step * moved.reshape(self.start.shape), dtype=float)
 
-    def thinned(self, most: int) -> TerrainHistory:
+    def thinned(self, most: int) -> "TerrainHistory":
         """The same at fewer times, so that there are at most so many moves where two times have room for no more."""
         if len(self.nodes) <= most or len(self.time) < 3:
             return self

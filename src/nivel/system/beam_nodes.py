@@ -7,8 +7,6 @@ twice, and what turns the node turns its section: were the frame to go half-way 
 the element by more the shorter it is. The tips of the gradients are interfaces.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

@@ -1,8 +1,6 @@
 """Tables of beams: the mass that their nodes and points have in common; and for derivatives by hand which unknowns move an element, and
 where what they do stands in the matrix."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping, Sequence
 

@@ -1,7 +1,5 @@
 """A machine half way from words to numbers: what has been numbered so far, by name."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 

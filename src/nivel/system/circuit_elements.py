@@ -1,7 +1,5 @@
 """Circuits of a machine while it is built: their nodes, their elements with rows, and the kernels that these need."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from nivel.elements.circuits import COMPONENTS

@@ -36,8 +36,6 @@ Ropes around wheels have ``wheels``: ``axis``, in the frame of the body at the p
 which the rope is fixed on a drum.
 """
 
-from __future__ import annotations
-
 import base64
 import zlib
 from collections.abc import Iterator

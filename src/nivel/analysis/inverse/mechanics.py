@@ -10,21 +10,24 @@ All that is asked for takes one state, or rows of states, of which there are as 
 """
 
 from collections.abc import Callable
-from typing import Any, Final
+from math import isfinite
+from typing import Final
 
 import numpy as np
-from scipy.linalg import lapack
+from numpy.typing import NDArray
 
 from nivel.analysis.assembly import instant
-from nivel.analysis.inverse.quick import Quick, UnsuitedError
 from nivel.analysis.linearise.ports import Catalogue
 from nivel.analysis.linearise.reduction import Ports, Reduction, velocity_names
 from nivel.analysis.linearise.validity import coordinate_signs
 from nivel.analysis.run.prepared_state import Moment
 from nivel.errors import ModelError
+from nivel.kernels.core.block import Handle
+from nivel.kernels.residual.many_states import EFFORTS, FORWARD, JACOBIAN, MASS, SLOPES, States, answer_rows
 from nivel.machine.core.placement import marker_frame
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.uses.coordinate_reference import unknown_name
+from nivel.results.motion import rotation_matrices
 from nivel.system.system import Array
 
 # positions are closed to this share of the scales of the rows, in so many iterations at most
@@ -33,6 +36,7 @@ CLOSED, MOST = 1e-13, 50
 LAST_AXIS = 2
 # rows of states have so many dimensions
 MANY: Final = 2
+NOTHING: Final = np.zeros(0)
 
 
 class Mechanics:
@@ -72,10 +76,30 @@ class Mechanics:
         ]
         self._angles, self._counted = np.array(counted, dtype=np.intp).reshape(-1, 2).T
         self._velocity_signs = self._signs[own.free[self._selected]]
-        self._quick = None if len(own.velocity_rows) else Quick(own, self._selected, reduction.kept)
-        self._turns = bool((own.place[:, 1] <= LAST_AXIS).any())
-        self._still, self._zeros = moment.y.copy(), np.zeros(len(moment.y))
-        self._still[own.positions : own.first_state] = 0.0
+        self._address = int(moment.motion.handle.address)
+        dependent = np.setdiff1d(np.arange(len(own.free)), self._selected)
+        suited = not len(own.velocity_rows) and len(dependent) == own.rows
+        self._states = Handle(self._rows_of_states(dependent)) if suited else None
+
+    def _rows_of_states(self, dependent: NDArray[np.intp]) -> States:
+        own, f, m, rows = self._instant, len(self._instant.free), len(self._selected), self._instant.rows
+        still = self._moment.y.copy()
+        still[own.positions : own.first_state] = 0.0
+        Z = np.zeros((f, m))
+        Z[self._selected, np.arange(m)] = 1.0
+        selection = own.free, self._selected, dependent, own.place[own.place[:, 1] == 0, 0]
+        shapes = 3, (f, f), (rows, f), (rows, rows), (rows, rows), max(f, rows), (max(f, 6), max(f, m)), (m, m)
+        return States(
+            *(each.astype(np.uint32) for each in selection),
+            np.stack([self._counted, self._angles], axis=1).astype(np.uint32),
+            CLOSED * own.row_scale,
+            np.stack([self._place_signs, self._offsets], axis=1),
+            self._velocity_signs.copy(),
+            still,
+            Z,
+            *(np.zeros(each) for each in shapes),
+            *(np.zeros(count, np.int64) for count in (1, rows, rows, m)),
+        )
 
     def _reduction(self) -> Reduction:
         own = self._instant
@@ -128,9 +152,7 @@ class Mechanics:
         rows = len(reduction.kept)
         first = own.n + own.state_count + own.rows
         drift = -reduction.inverse[:, :rows] @ own.value()[first : first + own.rows]
-        speed = (
-            np.zeros(len(self.names)) if v is None else self._checked(v, len(self.names), "v") * self._velocity_signs
-        )
+        speed = (np.zeros(len(self.names)) if v is None else v) * self._velocity_signs
         y[own.positions + own.free] = reduction.Z @ speed + drift
         own.move_to(0.0, y, np.zeros(own.n))
         gamma = -own.value()[first + own.rows :]
@@ -143,119 +165,97 @@ class Mechanics:
 
     def mass_matrix(self, q: Array | None = None) -> Array:
         """(f, f) mass matrix at q, the start by default [kg, kg m, kg m²]."""
-        return self._for_each(self._mass_matrix, q)
+        return self._answers(MASS, self._mass_matrix, (len(self.names),) * 2, q)
 
-    def _mass_matrix(self, q: Array | None) -> Array:
-        if (quick := self._at_once(q)) is not None:
-            try:
-                M, J = quick.slopes()
-                Z, _ = quick.motions(J)
-                return self._signed(Z.T @ M @ Z if quick.has_loops else M)
-            except UnsuitedError:
-                pass
+    def _mass_matrix(self, q: Array, *_: Array) -> Array:
         reduction = self._at(q, None)
-        return self._signed(reduction.Z.T @ reduction.by_rate.r[self._instant.free] @ reduction.Z)
-
-    def _signed(self, M: Array) -> Array:
-        """A symmetric matrix of the independent velocities with their signs."""
+        M = reduction.Z.T @ reduction.by_rate.r[self._instant.free] @ reduction.Z
         return self._velocity_signs[:, None] * M * self._velocity_signs
 
     def bias(self, q: Array | None = None, v: Array | None = None) -> Array:
         """(f,) efforts that a = 0 asks for at q and v: weight, centrifugal forces, springs, dampers [N, N m]."""
-        return self._for_each(self._efforts, q, v)
+        return self._answers(EFFORTS, self._efforts, (len(self.names),), q, v)
 
     def inverse_dynamics(self, q: Array, v: Array, a: Array) -> Array:
         """(f,) efforts on the independent coordinates that make the accelerations a (f,) at q and v."""
-        return self._for_each(self._efforts, q, v, a)
+        return self._answers(EFFORTS, self._efforts, (len(self.names),), q, v, a)
 
-    def _efforts(self, q: Array | None, v: Array | None, a: Array | None = None) -> Array:
-        speed = None if v is None else self._checked(v, len(self.names), "v") * self._velocity_signs
-        rate = None if a is None else self._checked(a, len(self.names), "a") * self._velocity_signs
-        if (quick := self._at_once(q)) is not None:
-            try:
-                Z, inverse = quick.motions_here()
-                quick.move(Z, inverse, speed, rate)
-                return self._velocity_signs * quick.efforts(Z)
-            except UnsuitedError:
-                pass
+    def _efforts(self, q: Array, v: Array | None, a: Array | None) -> Array:
         reduction, own = self._at(q, v), self._instant
-        if rate is not None:
+        if a is not None:
             vdot = own.vdot.copy()
-            vdot[own.free] += reduction.Z @ rate
+            vdot[own.free] += reduction.Z @ (a * self._velocity_signs)
             own.move_to(0.0, own.y, vdot)
         return self._velocity_signs * (reduction.Z.T @ own.value()[: own.n][own.free])
 
-    def _at_once(self, q: Array | None) -> Quick | None:
-        """The quick equations at rest at positions q, which are closed first; None where they do not suit the machine."""
-        quick, own, y = self._quick, self._instant, self._still
-        if quick is None:
-            return None
-        q = self.start if q is None else self._checked(q, own.positions, "q")
-        y[: own.positions] = self._in_tree(q)
-        if self._turns:
-            y[: own.positions] = _normalised(own, y[: own.positions])
-        if len(self._angles):
-            self._count_turns(q)
-        quick.be_at(y)
-        if quick.has_loops and not quick.is_closed():
-            y[: own.positions] = self._in_tree(self.close(q))
-            quick.be_at(y)
-        return quick
-
-    def _for_each(self, call: Callable[..., Array], *states: Array | None) -> Array:
-        """What is asked for at one state, or at rows of states."""
-        for each in states:
-            if each is not None and np.ndim(each) >= MANY:
-                break
-        else:
-            return call(*states)
-        rows = max(len(each) for each in states if each is not None and np.ndim(each) == MANY)
-        given = [
-            [None] * rows
-            if each is None
-            else np.broadcast_to(np.asarray(each, dtype=float), (rows, np.shape(each)[-1]))
-            for each in states
-        ]
-        return np.array([call(*row) for row in zip(*given, strict=True)])
-
     def forward_dynamics(self, q: Array, v: Array, tau: Array) -> Array:
         """(f,) accelerations for efforts τ (f,) on the independent coordinates."""
-        return self._for_each(self._forward_dynamics, q, v, tau)
+        return self._answers(FORWARD, self._forward_dynamics, (len(self.names),), q, v, tau, "tau")
 
-    def _forward_dynamics(self, q: Array | None, v: Array | None, tau: Any) -> Array:
-        effort = self._checked(tau, len(self.names), "tau")
-        M, h = self._mass_and_bias(q, v)
-        right = effort - h
-        _, found, failed = lapack.dposv(M, right)  # type: ignore[attr-defined]
-        return np.asarray(np.linalg.solve(M, right) if failed else found, dtype=np.float64)
+    def _forward_dynamics(self, q: Array, v: Array | None, tau: Array) -> Array:
+        return np.linalg.solve(self._mass_matrix(q), tau - self._efforts(q, v, None))
 
-    def _mass_and_bias(self, q: Array | None, v: Array | None) -> tuple[Array, Array]:
-        if (quick := self._at_once(q)) is not None:
-            try:
-                M, J = quick.slopes()
-                Z, inverse = quick.motions(J)
-                speed = None if v is None else self._checked(v, len(self.names), "v") * self._velocity_signs
-                quick.move(Z, inverse, speed, None)
-                return self._signed(Z.T @ M @ Z if quick.has_loops else M), self._velocity_signs * quick.efforts(Z)
-            except UnsuitedError:
-                pass
-        return self._mass_matrix(q), self._efforts(q, v)
+    def inverse_dynamics_derivatives(self, q: Array, v: Array, a: Array) -> tuple[Array, Array]:
+        """∂τ/∂q and ∂τ/∂v (f, f) of the efforts of `inverse_dynamics`, exact; columns by the independent coordinates, turns about axes of
+        their bodies, loops closed. ∂τ/∂a is the mass matrix M; of the accelerations for given efforts they are -M⁻¹ ∂τ/∂q, -M⁻¹ ∂τ/∂v."""
+        both = self._answers(SLOPES, _without_slopes, (2, *(len(self.names),) * 2), q, v, a)
+        return both[..., 0, :, :], both[..., 1, :, :]
 
     def jacobian(self, point: str, q: Array | None = None) -> Array:
         """(6, f) velocity and angular velocity (global axes) of a marker, or of the frame of a body, per velocity."""
         b, position = self._point(point)
+        if self._states is not None:
+            asked: States = self._states.record
+            asked.body[0], asked.arm[:] = b, self._arm(b, position)
 
-        def at(q: Array | None) -> Array:
-            if (quick := self._at_once(q)) is not None:
-                try:
-                    return quick.jacobian(quick.motions_here()[0], b, position) * self._velocity_signs
-                except UnsuitedError:
-                    pass
+        def at(q: Array, *_: Array) -> Array:
             reduction = self._at(q, None)
             rates = self._instant.along("v", lambda own: instant.point_velocity(_measured(own), b, position)).seen
             return rates @ reduction.Z * self._velocity_signs
 
-        return self._for_each(at, q)
+        return self._answers(JACOBIAN, at, (6, len(self.names)), q)
+
+    def _arm(self, b: int, position: Array) -> Array:
+        """(3,) the point of body b in the axes in which the tree has the body."""
+        tree = self._instant.record.tree
+        return tree.own[b] + rotation_matrices(tree.own_theta[b : b + 1])[0] @ position if len(tree.node) else position
+
+    def _answers(
+        self,
+        job: int,
+        slow: Callable[..., Array],
+        shape: tuple[int, ...],
+        q: Array | None,
+        v: Array | None = None,
+        x: Array | None = None,
+        name: str = "a",
+    ) -> Array:
+        """Answers for one state, or for rows of states: by compiled code; where it has none, by `slow` for the single state."""
+        count = len(self.names)
+        given = (
+            self._checked(self.start if q is None else q, self._instant.positions, "q"),
+            NOTHING if v is None else self._checked(v, count, "v"),
+            NOTHING if x is None else self._checked(x, count, name),
+        )
+        rows = {len(each) for each in given if each.ndim == MANY}
+        if len(rows) > 1:
+            raise ModelError(f"rows of states must be as many in all that is given; got {sorted(rows)}")
+        out = np.empty((rows.copy().pop() if rows else 1, *shape))
+        done = 0
+        while (done := self._answered(job, done, given, out)) < len(out):
+            single = [each[done] if each.ndim == MANY else each for each in given]
+            closed = self.close(single[0]), *single[1:]
+            if not self._answered(job, 0, closed, out[done : done + 1]):
+                out[done] = slow(*(None if each is NOTHING else each for each in closed))
+            done += 1
+        return out if rows else out[0]
+
+    def _answered(self, job: int, first: int, given: tuple[Array, ...], out: Array) -> int:
+        """The compiled code's answers from row `first` on. Returns the number of the row that it has none for, or of all."""
+        if self._states is None or not len(out):
+            return first
+        flat = [each.ravel() for each in (*given, out)]
+        return int(answer_rows(self._address, self._states.address, job, first, len(out), *flat))
 
     def jacobian_bias(self, point: str, q: Array | None = None, v: Array | None = None) -> Array:
         """(6,) acceleration and angular acceleration (global axes) of a marker or body for a = 0."""
@@ -312,14 +312,22 @@ class Mechanics:
         return bodies.index(name), np.zeros(3)
 
     def _checked(self, value: Array, count: int, what: str) -> Array:
-        out = np.asarray(value, dtype=np.float64)
-        if out.ndim != 1:
-            out = out.ravel()
-        # 0 times what is not finite is no number; one product is quicker than a question for each
-        if len(out) != count or out.dot(self._zeros[:count]) != 0.0:
+        """(count,) or (rows, count) numbers, one behind the other."""
+        out = np.ascontiguousarray(value, dtype=np.float64)
+        flat = out.ravel()
+        # squares are quicker than a question for each; they may overflow
+        if out.ndim > MANY or out.shape[-1] != count or not (isfinite(flat.dot(flat)) or np.isfinite(flat).all()):
             names = self.position_names if what == "q" else self.names
-            raise ModelError(f"`{what}` must be {count} numbers, one for each of {', '.join(names)}; got {len(out)}")
+            raise ModelError(
+                f"`{what}` must be {count} numbers, one for each of {', '.join(names)}, or rows of these; got {out.shape}"
+            )
         return out
+
+
+def _without_slopes(*_: Array | None) -> Array:
+    raise ModelError(
+        "there are no derivatives of the efforts of machines with rolling wheels, or where loops are singular"
+    )
 
 
 def _measured(own: instant.Instant) -> instant.Instant:

@@ -31,6 +31,7 @@ OUTPUT, LOOP, FOLLOWING = "nivel.kernels.output.observe", "nivel.integrate.loop.
 PACED, REPEATED = "nivel.integrate.loop.paced", "nivel.integrate.loop.repeated"
 STATICS, RESIDUAL = "nivel.kernels.output.static_entries", "nivel.kernels.residual.tangent_entries:evaluate_residual"
 TANGENT_ENTRIES = "nivel.kernels.residual.tangent_entries"
+MANY_STATES = "nivel.kernels.residual.many_states"
 FOLLOWED = ("contact", "contacts", "stop")
 LOADS = ("force", "torque")
 DRIVES = ("dc-motor", "servo-motor")
@@ -60,7 +61,7 @@ COMPLETIONS = tuple(
 # all modules that some machines, runs or trees need
 OF_MACHINES = (MEASURE, FRICTION, RAIL, POINTS, SENSOR, WATCH, HEIGHT_WAY, SAMPLING, ON_SOIL, OF_BEAMS, GIVEN_FRICTION)
 OF_RUNS = (LOOP, VALUES, BOUNDS, FOLLOWING, PACED, REPEATED, STATICS, TANGENT_ENTRIES, OUTPUT, SHARED_LOADS)
-OF_TREES = (OF_FRAMES, OF_MODES, OF_SLIDERS, PASSING, IMPLICIT_ACCELERATIONS, *COMPLETIONS)
+OF_TREES = (MANY_STATES, OF_FRAMES, OF_MODES, OF_SLIDERS, PASSING, IMPLICIT_ACCELERATIONS, *COMPLETIONS)
 
 
 def build(entries: Iterable[Entry], listener: Listener | None) -> float:
@@ -185,12 +186,12 @@ def kinematics_entries(methods: Methods) -> list[Entry]:
     return [*preparation_entries(methods), *_entries([FOLLOWING]), correct]
 
 
-def linear_entries(methods: Methods) -> list[Entry]:
-    """What exact derivatives at an instant take."""
+def linear_entries(methods: Methods, entries: str = TANGENT_ENTRIES) -> list[Entry]:
+    """What exact derivatives at an instant take; entries : the module that asks for them."""
     modules = [*_rare_modules(methods.machine), *_node_modules(methods)]
     twins = _with_twins(methods.path.residual, modules, _families(methods.machine), held=False)
     sensors = _twins(SENSOR) if methods.machine.sensors else []
-    return [*preparation_entries(methods), *twins, *sensors, *_entries([TANGENT_ENTRIES])]
+    return [*preparation_entries(methods), *twins, *sensors, *_entries([entries])]
 
 
 def all_entries() -> list[Entry]:

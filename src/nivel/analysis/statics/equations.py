@@ -8,8 +8,6 @@ So that units do not matter, every number is made one without: translations in l
 energies over a scale of energy e, constraints over their own scales.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cached_property
 from typing import Any
@@ -87,10 +85,10 @@ class Change(Struct):
     lam: Array
     t: float = 0.0
 
-    def __mul__(self, share: float) -> Change:
+    def __mul__(self, share: float) -> "Change":
         return Change(share * self.q, share * self.lam, share * self.t)
 
-    def __add__(self, other: Change) -> Change:
+    def __add__(self, other: "Change") -> "Change":
         return Change(self.q + other.q, self.lam + other.lam, self.t + other.t)
 
 
@@ -144,7 +142,7 @@ class Tangent(Struct):
         out[np.arange(free), np.arange(free)] += shift
         return out
 
-    def rigid(self) -> Tangent:
+    def rigid(self) -> "Tangent":
         """The same constraints without any stiffness."""
         return replace(self, K=0.0 * self.K, tie=None)
 

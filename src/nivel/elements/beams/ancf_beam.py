@@ -10,8 +10,6 @@ They are integrated at three points, the fewest that leave no motion free. The s
 energy at the nodes, between which linear gradients shorten without reason where the beam bends.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.beams.exact import gauss, section_forces

@@ -7,8 +7,6 @@ least one that takes one slope to the other; its rate is (ω_b - ω_a)·(t_a + t
 bending at two: the fewest that leave no motion free, which keeps a thin cable free of locking.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.beams.exact import gauss

@@ -14,8 +14,6 @@ Finite elements interpolate by Lagrange's polynomials. Stiffness is integrated a
 locking; mass exactly.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

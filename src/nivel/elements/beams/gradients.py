@@ -5,8 +5,6 @@ The vectors of a node are its place r and gradients: along the beam ∂r/∂X, a
 (Shabana, Yakoub 2001; Gerstmayr, Shabana 2006).
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Models of beams: the families of their elements, and what adds them to a system."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.beams.ancf_beam import apply as ancf_beam

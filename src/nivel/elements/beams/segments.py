@@ -6,8 +6,6 @@ of beam from node to node, l its length, so that the deflection of the bushing i
 energy of linear elements with one point of integration: errors fall with l².
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

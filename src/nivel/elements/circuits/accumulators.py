@@ -11,8 +11,6 @@ At rest T = T₀ and p V = p₀ V₀. P stands in place of the precharge among t
 Nitrogen has θ, its temperature at the precharge's density on its adiabat, in place of P, and c_v dθ/θ = ds = c_v(ρ, T) (T₀/T - 1)/τ dt.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Any, ClassVar, Literal

@@ -1,7 +1,5 @@
 """Cylinders and rotary actuators."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Literal

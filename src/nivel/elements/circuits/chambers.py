@@ -1,7 +1,5 @@
 """Chambers of actuators, with the pistons between them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar
 

@@ -1,8 +1,6 @@
 """Valves through which fluid passes one way: check, shuttle, flushing and quick-exhaust valves; and by a pilot the other way, so that they
 hold a load: counterbalance and brake valves."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any, ClassVar, Final, Literal

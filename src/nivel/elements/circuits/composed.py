@@ -1,7 +1,5 @@
 """Valves that are composed of restrictions and poppets: the edges that they have and the pressures that move them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from nivel.elements.circuits.poppets import NODES, lift

@@ -19,8 +19,6 @@ which is the law of a heat exchanger whose other side keeps its temperature; H i
 heat/(ṁ c): T_out - T_c = (T_in - T_c) exp(-H/(ṁ c)).
 """
 
-from __future__ import annotations
-
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np

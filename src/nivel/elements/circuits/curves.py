@@ -1,7 +1,5 @@
 """Curves and tables of catalogues: of spools, of machines, of hoses."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any
 

@@ -8,8 +8,6 @@ the bulk modulus of the liquid and its growth with p - pa. A volume that is empt
 Enthalpy h = ∫ dp/ρ from pa.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

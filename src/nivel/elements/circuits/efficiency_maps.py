@@ -9,8 +9,6 @@ C and c lie on the points of the map, and trilinear between them; outside, the n
 the points are those of the map.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.circuits.density import thickness

@@ -5,8 +5,6 @@
 Q is linear between its points and zero beyond the last, the greatest vacuum. The jet itself is a restriction from P to R.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import pairwise
 from typing import Annotated, ClassVar, Literal

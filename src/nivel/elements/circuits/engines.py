@@ -5,8 +5,6 @@
 ω_0 is the speed that is asked for without load, δ the droop: what it falls by at the greatest torque.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from math import pi
 from typing import ClassVar, Literal

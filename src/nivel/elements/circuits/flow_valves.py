@@ -1,7 +1,5 @@
 """Valves that hold or share a flow: flow control, divider, priority."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Final, Literal
 

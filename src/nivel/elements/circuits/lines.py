@@ -5,8 +5,6 @@
 Its terms stand in `nivel.elements.circuits.line_friction`.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from math import pi

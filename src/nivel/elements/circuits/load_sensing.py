@@ -3,8 +3,6 @@
 The load of a valve is the pressure at A or B, whichever it feeds, and that of its tank while it is closed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 

@@ -1,7 +1,5 @@
 """Nodes of components: volumes of fluid, of their own or within a valve."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Valves in two stages: pilot-operated relief and reducing valves, and cartridges."""
 
-from __future__ import annotations
-
 from typing import ClassVar, Literal
 
 from nivel.elements.circuits import ranges

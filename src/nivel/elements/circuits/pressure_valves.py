@@ -1,7 +1,5 @@
 """Valves that bound a pressure, hold or switch it: relief and unloading, reducing and sequence valves, compensators, soft start."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any, ClassVar, Literal
 

@@ -12,8 +12,6 @@ Without a frequency ε = c. With load sensing c is a state that holds a margin a
     ċ = g/√(1 + g²)/T        g = min(p_LS + margin - p_B, p_max - p_B)/range, or (λ - c)/END where that is less
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

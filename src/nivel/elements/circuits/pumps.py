@@ -1,7 +1,5 @@
 """Pumps, motors and sources of flow."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from math import pi

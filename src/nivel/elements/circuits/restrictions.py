@@ -6,8 +6,6 @@ x is an opening from 0 to 1. Edges of spools open as R(z)/R(z at a full stroke),
 their overlap.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal

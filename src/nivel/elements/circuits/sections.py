@@ -1,7 +1,5 @@
 """Sections of mobile directional valves: a metering spool with its pressure compensator."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Literal
 

@@ -1,7 +1,5 @@
 """Spool valves from catalogues in words: every edge has curves of its own, and the spool a solenoid, springs and the force of the flow."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Literal

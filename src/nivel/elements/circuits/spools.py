@@ -16,8 +16,6 @@ t_off + t_move; the valve moves where a < e < b, so that both delays are as they
     ė = r tanh((g - e)/E)        u = S((e - a)/(b - a))
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Annotated

@@ -1,7 +1,5 @@
 """Symbols of components after ISO 1219-1: paths about the middle of a symbol, and where lines meet it. Units are pixels; y goes down."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any, Final, Literal
 
@@ -36,7 +34,7 @@ class Symbol(Struct):
     unit: tuple[float, str] | None = None
     arrow: tuple[float, float, float, float] | None = None
 
-    def __call__(self, data: Mapping[str, Any]) -> Symbol:
+    def __call__(self, data: Mapping[str, Any]) -> "Symbol":
         """The symbol of a component with this record, as JSON."""
         body = self.body + adjustable(*self.arrow) if self.arrow and varies(data, self.key) else self.body
         return replace(self, body=body, settings=setting(data, self.key, *self.unit) if self.unit else self.settings)

@@ -4,8 +4,6 @@ The node of a reservoir is a volume whose room is the air above the liquid (`niv
 an accumulator; that of an open one gives way to the liquid at atmospheric pressure.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 

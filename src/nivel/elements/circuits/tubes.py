@@ -6,8 +6,6 @@ laminar below ṁ_c and turbulent above it (Blasius), as `nivel.elements.circuit
 the gas is compressed without heat, waves run with √(κ R T).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Any, ClassVar, Literal

@@ -9,8 +9,6 @@ Of two ellipsoids it is the largest gap nᵀd - h₁(n) - h₂(n) over the unit 
 Both are exact, and so is their gradient, as long as an ellipsoid is not deeper inside than its least radius of curvature.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -5,8 +5,6 @@ four points of each rim, the lowest one and those a quarter turn on, so it rolls
 force acts on the ground.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 import numpy as np

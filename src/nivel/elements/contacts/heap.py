@@ -5,8 +5,6 @@ places alone, so that sums do not depend on the way. Of few spheres all pairs ar
 grid that are larger than the largest sphere. Then a step costs as much for each sphere, however many there are.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.contacts import law as of_law

@@ -9,8 +9,6 @@ Or the friction of all points is that of a patch, which sticks: `nivel.kernels.e
 Sums over a polygon are those of the triangles around its middle, by Gauss's three points; of an elastic pressure this is exact.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.elements.contacts.law import SURFACE_NUMBERS, find_surface, mean_of, place_patch

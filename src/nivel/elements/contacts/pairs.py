@@ -1,7 +1,5 @@
 """Contacts in numbers: of each pair of shapes the family that finds its points, and the numbers of this."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from typing import Final

@@ -9,8 +9,6 @@ is the last place over that side, less deep by up to a radius where it is nearer
 side is left.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Shapes that touch in numbers: their markers, balls that hold them, corners, and convex hulls."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from functools import lru_cache

@@ -5,8 +5,6 @@ forces see fixed cells, so that methods keep their order. All that changes stand
 begins with those of the file, and a saved state has all of them.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from typing import Annotated, Any, ClassVar

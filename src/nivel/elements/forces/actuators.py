@@ -1,7 +1,5 @@
 """End stops, motors and position servos on a joint coordinate."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import ClassVar, Literal

@@ -1,7 +1,5 @@
 """Friction in drive lines: brakes, clutches, freewheels, and the losses of transmissions."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal

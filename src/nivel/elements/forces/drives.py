@@ -3,8 +3,6 @@
 Energy: electrical power u i goes in; R i², friction and the damping of the gear are lost; ½ L i², ½ J ω² and ½ k δ² are stored.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from typing import Annotated, Any, ClassVar, Literal

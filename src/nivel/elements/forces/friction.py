@@ -1,7 +1,5 @@
 """Friction in joint coordinates and of patches of contacts, and the work of this."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 

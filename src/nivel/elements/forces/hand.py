@@ -1,7 +1,5 @@
 """A hand: a spring with a damper from a point of the body that is chosen to a point in space."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from typing import Annotated, ClassVar, Literal

@@ -1,7 +1,5 @@
 """Given loads: forces and torques on one body, with no counter-force, and forces between two points."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal

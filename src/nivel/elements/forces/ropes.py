@@ -1,7 +1,5 @@
 """Ropes over pulleys between two ends: straight from point to point, or around wheels; the unstressed length is a state of a winch."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Iterator, Sequence
 from typing import Annotated, ClassVar, Literal

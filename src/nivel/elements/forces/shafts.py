@@ -7,8 +7,6 @@ state, and z what is left of e - x between the ends (the return mapping of plast
 where steps are chosen one ends there). Of Euler and Eytelwein, T₁ = m T₂ with m = exp(μ φ), the end is k z = T₀ (m - 1)/(m + 1).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from math import exp, pi

@@ -5,8 +5,6 @@ values, with H shifted where it is not positive definite or a step does not lowe
 on the ends are those of the node held: its own motion adds nothing to them, as V is stationary.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import Annotated, ClassVar, Final, Literal
 

@@ -9,8 +9,6 @@ and where all parts have dampers, the last one has the length that is left, and 
 damper are Maxwell's element (1867).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import Annotated, ClassVar, Final, Literal
 

@@ -1,7 +1,5 @@
 """Springs and dampers: between points, between markers, on joint coordinates, and along the global axes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import Annotated, Any, ClassVar, Literal
 

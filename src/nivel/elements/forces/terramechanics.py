@@ -3,8 +3,6 @@
 The kernels are those of `nivel.elements.contacts.on_soil` and `nivel.elements.contacts.tracks`, where tracks are on hard ground too.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Any, ClassVar, Literal

@@ -21,8 +21,6 @@ Energy: the battery gives U₀ I, without one the dc link or the grid P; R_b I²
 lost; ½ C U², 3/4 L i², 3/4 M i_μ² are stored.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal

@@ -23,8 +23,6 @@ secant of the curve without its shifts and F₀ what they add, so ż = -(v + A (
 moments act besides, with the work that they do; the spin of a leaning wheel is in the formula and not in the bore.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import Annotated, ClassVar, Literal
 

@@ -3,8 +3,6 @@
 A linear coupling holds Σ factor · coordinate at the value that it has as the machine is placed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import cached_property
 from itertools import combinations_with_replacement

@@ -1,7 +1,5 @@
 """Drivers: prescribed motions of a joint coordinate, of the place or angle of a marker, or of its whole pose; one row for each."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Final, Literal
 

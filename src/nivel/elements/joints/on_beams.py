@@ -1,7 +1,5 @@
 """Joints that slide along a beam: what holds them on it, which nodes they may come by, and where they start."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The reduced body: all that a moving flexible body needs to know."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Final
 
@@ -28,13 +26,13 @@ class LeftOut(Struct):
     I4: Array
     I8: Array
 
-    def beside(self, kept: Whole) -> LeftOut:
+    def beside(self, kept: Whole) -> "LeftOut":
         """The same modes for a body with these of its modes only."""
         return LeftOut(
             self.eigenvalues, self.phi, self.mass[:, kept], self.stiffness[:, kept], self.I3, self.I4, self.I8
         )
 
-    def __add__(self, other: LeftOut) -> LeftOut:
+    def __add__(self, other: "LeftOut") -> "LeftOut":
         """All modes of both, for the same body."""
         return LeftOut(
             np.concatenate([self.eigenvalues, other.eigenvalues]),
@@ -167,7 +165,7 @@ class ReducedBody(Struct):
         c = self.centre_of_mass
         return self.invariants.I7 - self.mass * ((c @ c) * np.eye(3) - np.outer(c, c))
 
-    def keeping(self, modes: Whole) -> ReducedBody:
+    def keeping(self, modes: Whole) -> "ReducedBody":
         """The body with these of its modes only, places from 0."""
         take = np.asarray(modes, dtype=np.int64)
         change = np.eye(len(self.eigenvalues))[:, take]

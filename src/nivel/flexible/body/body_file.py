@@ -1,7 +1,5 @@
 """Body files: a reduced body as NetCDF-4, written once and read in a moment."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Mapping, Sequence

@@ -6,8 +6,6 @@ Rantalainen 2007, eqs (3.59)–(3.67), of mass points p with undeformed position
 values at the nodes, which is exact, since the interpolation of solid elements commutes with rotations.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from nivel.lazy import Struct
@@ -42,7 +40,7 @@ class Invariants(Struct):
     I8: Array
     I9: Array
 
-    def of_modes(self, change: Array) -> Invariants:
+    def of_modes(self, change: Array) -> "Invariants":
         """The invariants of the modes Φ `change`, (n, k)."""
         C = change
         return Invariants(

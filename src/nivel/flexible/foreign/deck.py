@@ -3,8 +3,6 @@
 Blanks have no meaning in keywords and options, and case has none but in names of files.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from difflib import get_close_matches
 from pathlib import Path
@@ -21,7 +19,7 @@ class Line(int):
     file: Path | None = None
 
     @classmethod
-    def of(cls, number: int, file: Path | None) -> Line:
+    def of(cls, number: int, file: Path | None) -> "Line":
         """The line `number` of `file`."""
         line = cls(number)
         line.file = file

@@ -6,8 +6,6 @@ points, and all identities between the invariants hold to round-off. nivel's own
 consistent and with lumped mass. `MatrixMass` is a matrix of another program of which no more is known.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, Protocol
 
@@ -45,11 +43,11 @@ class PointMass(Struct):
         weight = sp.csr_array(sp.kron(self.weight, sp.eye_array(3)))
         return sp.csc_array(self.shape.T @ weight @ self.shape)
 
-    def transformed(self, transformation: Sparse) -> PointMass:
+    def transformed(self, transformation: Sparse) -> "PointMass":
         """The same with freedoms q, where those of now are `transformation` q."""
         return replace(self, shape=sp.csr_array(self.shape @ transformation))
 
-    def scaled(self, factor: float) -> PointMass:
+    def scaled(self, factor: float) -> "PointMass":
         """The same with all masses times `factor`."""
         return replace(self, weight=self.weight * factor)
 
@@ -74,7 +72,7 @@ class MatrixMass(Struct):
             return self.full
         return sp.csc_array(self.transformation.T @ self.full @ self.transformation)
 
-    def transformed(self, transformation: Sparse) -> MatrixMass:
+    def transformed(self, transformation: Sparse) -> "MatrixMass":
         """The same with freedoms q, where those of now are `transformation` q."""
         before = self.transformation
         return replace(self, transformation=transformation if before is None else sp.csr_array(before @ transformation))
@@ -248,7 +246,7 @@ class FiniteElementModel(Struct):
         out[has] = full[self.freedoms[has]]
         return out
 
-    def changed(self, **changes) -> FiniteElementModel:
+    def changed(self, **changes) -> "FiniteElementModel":
         """A copy in which `changes` hold."""
         return replace(self, **changes)
 

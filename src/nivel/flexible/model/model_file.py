@@ -1,7 +1,5 @@
 """Model files: from YAML to a ModelRecord, with every fault and its place."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path as FilePath
@@ -36,7 +34,7 @@ class Located:
         """`message` with the place of `path` in the file."""
         return self._tree.fault(path, message, at_key=at_key)
 
-    def with_record(self, record: ModelRecord) -> Located:
+    def with_record(self, record: ModelRecord) -> "Located":
         """Another record with the same places of keys."""
         return Located(record, self.parameters, self._tree)
 

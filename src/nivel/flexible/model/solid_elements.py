@@ -1,7 +1,5 @@
 """Stress, turn and geometric stiffness of solids: meshes of isoparametric elements of one or several shapes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from functools import cached_property
 from typing import Final
@@ -89,7 +87,7 @@ class SolidBlock(Struct):
         ]
         return 0.5 * np.sum(terms, axis=0)
 
-    def part(self, chosen: slice | list[int]) -> SolidBlock:
+    def part(self, chosen: slice | list[int]) -> "SolidBlock":
         """Some of the elements."""
         D, inner = self.elasticity, self.inner
         D = D if D is None or len(D) == 1 else D[chosen]
@@ -153,7 +151,7 @@ class SolidElements(Struct):
         return float(sum(block.volumes.sum() for block in self.blocks))
 
     @cached_property
-    def by_material(self) -> tuple[SolidElements, ...]:
+    def by_material(self) -> "tuple[SolidElements, ...]":
         """The elements of each material alone: between them strain and stress have steps."""
         names = dict.fromkeys(block.material for block in self.blocks)
         if len(names) == 1:

@@ -1,7 +1,5 @@
 """A finite-element model that nothing holds, ready to be solved: rigid motions known, elastic ones invertible."""
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import Final
 
@@ -29,7 +27,7 @@ class FreeBody(Struct):
     _factors: dict[bytes, Factor] = field(default_factory=dict, repr=False, compare=False)
 
     @classmethod
-    def of(cls, model: FiniteElementModel) -> FreeBody:
+    def of(cls, model: FiniteElementModel) -> "FreeBody":
         """The body of `model`."""
         return cls(model, model.stiffness, model.mass.matrix)
 

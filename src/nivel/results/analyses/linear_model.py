@@ -1,7 +1,5 @@
 """Linear equations of motion about a state, as the result of an analysis: matrices with names, eigenvalues, frequency response."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from os import PathLike

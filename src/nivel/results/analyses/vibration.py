@@ -5,8 +5,6 @@ With G(iω) of the model and independent inputs S_y(f) = Σ |G_k|² S_k (Newland
 frequency the covariance P of the states solves A P + P Aᵀ + B (S/2) Bᵀ = 0 (Lyapunov).
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from os import PathLike, fspath

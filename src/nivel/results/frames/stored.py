@@ -5,8 +5,6 @@ Its JSON texts have forms, so that whatever reads them finds what it asks for. A
 a set is one of its words, `Either` one of several forms. The scene is described in `nivel.system.scene`.
 """
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Iterator, Mapping
@@ -231,7 +229,7 @@ class StoredContents:
                 raise ModelError(f"{path} is damaged and cannot be read: {error}{written_by_newer(written)}") from None
 
     @classmethod
-    def of(cls, path: Path, memory: MemoryContents) -> StoredContents:
+    def of(cls, path: Path, memory: MemoryContents) -> "StoredContents":
         """Those of a file that holds what is in memory."""
         made = cls.__new__(cls)
         made.path, made.frame_count, made._memory = path, memory.frame_count, memory

@@ -1,7 +1,5 @@
 """Blocks of a control in numbers: signals are elements that come before all forces, memories are states, samples a table of their own."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from math import gcd
 

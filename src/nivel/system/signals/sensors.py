@@ -1,7 +1,5 @@
 """Sensors in numbers, and their outputs."""
 
-from __future__ import annotations
-
 from nivel.errors import Fault, ModelError, located
 from nivel.kernels.bodies.coordinate import DISTANCE, LAST_ANGLE, ROTATION
 from nivel.kernels.record.record import NONE

@@ -1,7 +1,5 @@
 """A machine made ready to run: built, assembled, refused where no method could follow it, and put into the coordinates of the run."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from functools import partial
 from importlib import import_module
@@ -86,20 +84,20 @@ class Prepared(Struct):
     machine: MachineRecord | None = None
     methods: Methods | None = None
 
-    def again(self) -> Prepared | None:
+    def again(self) -> "Prepared | None":
         """The same, not yet run, with records of its own, for a run beside it; None where records point to each other or to units."""
         if self.motion.twin is not None or self.motion.system.units:
             return None
         return self._with(copied(_Records(self.motion.system.record, self.absolute.system.record)))
 
-    def in_one_piece(self) -> tuple[Prepared, NDArray[np.uint8] | None]:
+    def in_one_piece(self) -> "tuple[Prepared, NDArray[np.uint8] | None]":
         """The same with its records in one piece of memory, and that piece; as it is, with none, where records point to each other."""
         if self.motion.twin is not None:
             return self, None
         own, piece = in_one_piece(_Records(self.motion.system.record, self.absolute.system.record))
         return self._with(own), piece
 
-    def _with(self, records: _Records) -> Prepared:
+    def _with(self, records: _Records) -> "Prepared":
         motion, absolute = (
             replace(each, system=replace(each.system, record=record))
             for each, record in zip((self.motion, self.absolute), records, strict=True)
@@ -313,7 +311,7 @@ class SharedLoads(Struct, frozen=False):
     y: Array
 
     @classmethod
-    def of(cls, prepared: Prepared, *, keeps_sparse: bool = True) -> SharedLoads | None:
+    def of(cls, prepared: Prepared, *, keeps_sparse: bool = True) -> "SharedLoads | None":
         """None where no reaction is open; and for flexible bodies and beams, whose stiffness decides how loads are shared.
 
         keeps_sparse : rows that repeat others everywhere are looked for, which takes as long as some hundred frames of a small machine.

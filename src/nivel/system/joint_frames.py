@@ -4,7 +4,7 @@ The direction is that of the first joint in the file that has it. The markers of
 rotation, before anything is computed: all coordinates and formulations see the same axes.
 """
 
-from collections.abc import Iterator
+import math
 from difflib import get_close_matches
 from functools import lru_cache
 
@@ -182,19 +182,19 @@ class Directions:
     """Directions (3,) that axes of a machine have had so far, as placed; axes nearer than `tolerance` [rad] have one."""
 
     def __init__(self, tolerance: float) -> None:
-        self.tolerance, self.count, self._found = tolerance, 0, np.zeros((8, 3))
+        self.tolerance, self.count, self.found = tolerance, 0, np.zeros((8, 3))
 
     def add(self, z: Array) -> None:
         """One more direction."""
-        if self.count == len(self._found):
-            self._found = np.concatenate([self._found, np.zeros_like(self._found)])
-        self._found[self.count] = z
+        if self.count == len(self.found):
+            self.found = np.concatenate([self.found, np.zeros_like(self.found)])
+        self.found[self.count] = z
         self.count += 1
 
     def near(self, z: Array, most: float) -> list[tuple[int, float]]:
         """Number of each direction that is parallel to z to `most` [rad], and its angle [rad], in their order."""
-        may = np.flatnonzero(np.abs(self._found[: self.count] @ z) >= np.cos(most) - 1e-12).tolist()
-        return [(k, angle) for k in may if (angle := apart(self._found[k], z)) <= most]
+        may = np.flatnonzero(np.abs(self.found[: self.count] @ z) >= np.cos(most) - 1e-12).tolist()
+        return [(k, angle) for k in may if (angle := apart(self.found[k], z)) <= most]
 
     def straightened(self, machine: MachineRecord, placed: Placed) -> Placed:
         """The marker with its z axis, as the file places its body, along a direction that is there already; else it becomes one."""
@@ -206,12 +206,9 @@ class Directions:
             self.add(z)
         if off <= ROUND_OFF:
             return placed
-        known = self._found[k]
+        known = self.found[k]
         along = known if known @ z > 0.0 else -known
         return body, point, A.T @ _turn(z, along) @ A @ frame
-
-    def __iter__(self) -> Iterator[Array]:
-        return iter(self._found[: self.count])
 
 
 class Tilt(Struct):
@@ -237,8 +234,8 @@ def tilted_axes(machine: MachineRecord, most: float) -> tuple[Tilt, ...]:
             directions.add(z)
             names.append([joint.name])
     out = []
-    for k, z in enumerate(directions):
-        for n, angle in directions.near(z, most):
+    for k in range(directions.count):
+        for n, angle in directions.near(directions.found[k], most):
             if n != k and (len(names[n]), -n) > (len(names[k]), -k):
                 out += [Tilt(name, tuple(names[n]), angle) for name in names[k]]
     return tuple(sorted(out, key=lambda tilt: -tilt.angle))
@@ -246,7 +243,8 @@ def tilted_axes(machine: MachineRecord, most: float) -> tuple[Tilt, ...]:
 
 def apart(a: Array, b: Array) -> float:
     """The angle between two lines along unit vectors [rad]."""
-    return float(np.arctan2(np.linalg.norm(cross(a, b)), abs(a @ b)))
+    across = cross(a, b)
+    return math.atan2(math.sqrt(across @ across), abs(a @ b))
 
 
 def _turn(a: Array, b: Array) -> Array:

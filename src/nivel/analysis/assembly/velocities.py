@@ -121,9 +121,8 @@ def whitened(system: System, free: NDArray[np.bool_], lightest: float) -> Array:
     """
     bodies, count = system.record.bodies, system.body_count
     M = np.zeros((count, 6, 6))
-    mass = bodies.mass[:, None, None]
-    M[:, :3, :3] = mass * np.eye(3)
-    M[:, :3, 3:] = -mass * bodies.A[:count] @ -cross(bodies.centre_b[:, None], np.eye(3))
+    M[:, :3, :3] = bodies.mass[:, None, None] * np.eye(3)
+    M[:, :3, 3:] = -bodies.mass[:, None, None] * bodies.A[:count] @ -cross(bodies.centre_b[:, None], np.eye(3))
     M[:, 3:, :3] = np.swapaxes(M[:, :3, 3:], 1, 2)
     M[:, 3:, 3:] = bodies.inertia_origin_b
     M[:, :3, :] *= system.size

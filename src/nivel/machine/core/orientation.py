@@ -144,14 +144,15 @@ def euler_parameters_from_matrix(matrix: Array) -> Array:
 
     4 θ θᵀ is linear in the matrix; the row with the largest diagonal is the best conditioned multiple of θ.
     """
-    A = matrix
-    trace = np.trace(A)
-    skew = np.array([A[2, 1] - A[1, 2], A[0, 2] - A[2, 0], A[1, 0] - A[0, 1]])
-    four = np.empty((4, 4))
-    four[0, 0] = 1 + trace
-    four[0, 1:] = four[1:, 0] = skew
-    four[1:, 1:] = A + A.T + (1 - trace) * np.eye(3)
-    return _normalised(four[np.argmax(np.diag(four))])
+    (a, b, c), (d, e, f), (g, h, i) = matrix.tolist()
+    trace = a + e + i
+    rows = (
+        (1 + trace, h - f, c - g, d - b),
+        (h - f, a + a + (1 - trace), b + d, c + g),
+        (c - g, d + b, e + e + (1 - trace), f + h),
+        (d - b, g + c, h + f, i + i + (1 - trace)),
+    )
+    return _normalised(np.array(rows[int(np.argmax([rows[k][k] for k in range(4)]))]))
 
 
 def product(first: Array, second: Array) -> Array:

@@ -165,7 +165,9 @@ def _curves(result: Result) -> Iterator[tuple[list[str], Curve]]:
         # numbers without units are shares, directions and marks of what sticks
         name
         for name, variable in result.variables.items()
-        if name.startswith(LOADS) and variable.dims == ("time",) and result.units(name) not in ("", "1")
+        if name.startswith(LOADS)
+        and variable.dims == ("time",)
+        and (variable.units or result.units(name)) not in ("", "1")
     ]
     if names:
         every = curve(result.time, np.column_stack([result.array(name) for name in names]))

@@ -67,3 +67,31 @@ def test_crossings_in_rpm_are_those_of_the_equations_by_hand():
     found = LinearSweep("speed", "rpm", values, models).crossings([1.0])
     np.testing.assert_allclose(sorted(each.speed for each in found), sorted(wanted), rtol=2e-3)
     np.testing.assert_allclose(sorted(wanted)[::2] + sorted(wanted)[3:], [86.7, 103.4, 108.6], rtol=1e-3)
+
+
+@pytest.mark.parametrize("speed", [0.0, 150.0, 700.0])
+def test_a_jeffcott_rotor_off_the_middle_whirls_as_its_quartic_says(speed):
+    """A thin disc on a massless shaft that is simply supported, a from one end and b from the other. With w = x + iy and the slope
+    s = w' of the shaft at the disc, w = F a²b²/(3EIL) + M ab(b-a)/(3EIL), s = F ab(b-a)/(3EIL) + M (a³+b³)/(3EIL²); whirling e^{iωt} has
+    (k₁₁ - m ω²)(k₂₂ + I_p Ω ω - I_d ω²) = k₁₂², forward where ω > 0 (Genta 2005, §2.4). Two springs have the stiffness of the shaft: one at
+    the disc, and one of k₁₂²/k₂₂ at k₂₂/k₁₂ along the axis."""
+    a, b, bending, mass, across, axial = 0.25, 0.55, 210e9 * np.pi * 0.02**4 / 64.0, 8.0, 0.06, 1e7
+    length, spin, coupled = a + b, 2.0 * across * speed, a * b * (b - a)
+    give = np.array([[a**2 * b**2, coupled], [coupled, (a**3 + b**3) / length]]) / (3.0 * bending * length)
+    (k11, k12), (_, k22) = np.linalg.inv(give)
+    springs = {
+        f"at_{k}": {
+            "type": "three-axis-spring",
+            "bodies": ["ground", "disc"],
+            "points": [[0, 0, z], [0, 0, z]],
+            "stiffness": [stiffness, stiffness, along],
+        }
+        for k, (z, stiffness, along) in enumerate([(0.0, k11 - k12**2 / k22, axial), (k22 / k12, k12**2 / k22, 0.0)])
+    }
+    disc = {"mass": mass, "inertia": [across, across, 2.0 * across], "angular_velocity": [0, 0, speed]}
+    model = machine({"bodies": {"disc": disc}, "forces": springs}).linearise()
+    quartic = np.polysub(np.polymul([-mass, 0.0, k11], [-across, spin, k22]), [k12**2])
+    wanted = np.sort([*np.abs(np.roots(quartic)), np.sqrt(axial / mass)])
+    frequencies = np.sort(model.eigenvalues.imag[model.eigenvalues.imag > 1.0])
+    np.testing.assert_allclose(frequencies, wanted, rtol=1e-10)
+    assert model.trust.verdict == "green"

@@ -160,6 +160,71 @@ def test_a_copy_that_fails_fails_alone():
     np.testing.assert_allclose(found, np.delete(0.1 * np.cos(np.sqrt(stiffness / 2.0) * 0.5), 1), atol=1e-7)
 
 
+# nodes of those that have circuits alone, or mostly
+PRESSURES = {"hydraulics/water-hammer.yaml": ("plant",)}
+
+
+def of_all_kinds():
+    """Examples: number of the machine to vary, or else gravity. All but a handful are for the full tests."""
+    varied = {
+        "contact": {"bouncing-ball": "ball", "conveyor": "", "friction-brake": "load", "rolling-coin": "coin"},
+        "control": {"crane-control": "trolley", "servo-axis": "table", "six-axis-arm": "load"},
+        "exchange": {"spindle": "", "trolley": "trolley"},
+        "hydraulics": {
+            "accumulator-press": "slide",
+            "accumulator-station": "",
+            "closed-transmission": "dumper",
+            "cylinder-boom": "boom",
+            "excavator": "boom",
+            "faults": "load",
+            "harvester-crane": "boom",
+            "loader-crane": "boom",
+            "pneumatic-pusher": "pusher",
+            "position-servo": "slide",
+            "positive-flow-excavator": "boom",
+            "power-pack": "rotor",
+            "two-pump-excavator": "boom",
+            "water-hammer": "",
+            "wheel-loader": "chassis",
+        },
+        "machines": {
+            "backhoe-swing": "boom",
+            "excavator": "boom",
+            "flywheel-press": "",
+            "isolated-pump": "floor",
+            "mobile-crane": "turntable",
+            "rope-crane": "column",
+            "washing-machine": "tub",
+        },
+        "mechanisms": {"four-bar-revolutes": "", "gear-train": ""},
+    }
+    default = ("conveyor", "crane-control", "rope-crane", "gear-train")
+    for folder, machines in varied.items():
+        for name, body in machines.items():
+            marks = () if name in default else pytest.mark.full
+            yield pytest.param(f"{folder}/{name}.yaml", body, marks=marks, id=f"{folder}-{name}")
+
+
+@pytest.mark.parametrize(("file", "body"), [*of_all_kinds()])
+def test_copies_of_machines_of_all_kinds_move_as_single_ones(file, body):
+    machine = nivel.load(EXAMPLES / file)
+    if body:
+        values = {f"bodies.{body}.mass": np.linspace(0.9, 1.1, COUNT) * machine[f"bodies.{body}.mass"]}
+    else:
+        values = {"gravity": [[0.0, 0.1 * k, -9.0 - 0.1 * k] for k in range(COUNT)]}
+    given = {"n": COUNT, "integrator": "rk4", "coordinates": "relative", "step": 2e-4, "values": values}
+    many, alone = (machine.start(lanes=lanes, **given) for lanes in (True, False))
+    for _ in range(4):
+        for sims in (many, alone):
+            sims.advance(1e-3)
+    assert many.in_lanes.any()
+    assert many.alive.all()
+    pressures = [f"hydraulics.{name}.pressure" for name in PRESSURES.get(file, ())]
+    motion = ["position", "velocity"] if machine.bodies else []
+    joints = ["joint_coordinate", "joint_rate", "joint_force"] if machine.joints else []
+    agree(many, alone, [*pressures, *motion, *joints])
+
+
 def test_copies_of_another_structure_go_beside_the_lanes(cart):
     """A copy without mass of its own kind is refused; one with other whole numbers is stepped singly."""
     values = {"simulation.integrator": ["rk4"] * (COUNT - 1) + ["heun"]}

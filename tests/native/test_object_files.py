@@ -1,11 +1,15 @@
 """Object files are whole, undamaged, one's own, or not there."""
 
+import errno
 import os
 import threading
+from pathlib import Path
 
 import pytest
+import toy_entries as toys
 
-from nivel.native import store
+from nivel.cli.failures import told
+from nivel.native import library, processor, store, workers
 
 
 @pytest.fixture
@@ -23,6 +27,23 @@ def test_what_is_written_is_read(home):
     store.write(path, b"machine code")
     assert store.read(path) == b"machine code"
     assert os.listdir(home) == [path.name]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device without room")
+def test_a_full_disk_is_told_in_one_sentence(tmp_path, capsys):
+    """What compiles meets it, in a process of its own, which then takes other jobs."""
+
+    def compile_to(path):
+        workers.compile_all([library.job_of(toys.squares, [(str(path), processor.target())])])
+
+    with pytest.raises(OSError, match="/dev/full") as found:
+        compile_to("/dev/full")
+    assert found.value.errno == errno.ENOSPC
+    with pytest.raises(SystemExit, match="3"), told():
+        compile_to("/dev/full")
+    assert capsys.readouterr().err == "/dev/full cannot be written: no space left on device\n"
+    compile_to(tmp_path / "squares.o")
+    assert store.read(tmp_path / "squares.o")
 
 
 def test_only_the_user_can_write_there(home):

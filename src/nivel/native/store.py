@@ -95,9 +95,12 @@ def read(path: Path) -> bytes | None:
 
 
 def write(path: Path, code: bytes) -> None:
-    """Keep an object file. Raises OSError."""
-    with whole(path) as draft:
-        draft.write_bytes(hashlib.sha256(code).digest() + code)
+    """Keep an object file. Raises OSError, which names it."""
+    try:
+        with whole(path) as draft:
+            draft.write_bytes(hashlib.sha256(code).digest() + code)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None
 
 
 @contextmanager

@@ -33,6 +33,8 @@ def _answer(job: dict[str, Any]) -> tuple[str, str] | None:
     sys.path[:] = job["places"]
     try:
         _compile(job)
+    except OSError:  # no room: it is raised where the job came from
+        raise
     except Exception as problem:  # whatever it is, the process that asked has to say it
         return str(problem), type(problem).__name__
     return None

@@ -26,7 +26,14 @@ START = (
 
 def python(module: str, *words: str) -> list[str]:
     """The command of a process that calls `main` of a module, which it finds where this process does, and that ends with this one."""
-    return [sys.executable, "-c", START, json.dumps([sys.path, os.getpid(), module]), *words]
+    return [
+        sys.executable,
+        *["-B"] * sys.dont_write_bytecode,
+        "-c",
+        START,
+        json.dumps([sys.path, os.getpid(), module]),
+        *words,
+    ]
 
 
 def end_with_parent(parent: int) -> None:
@@ -179,7 +186,8 @@ def compile_all(jobs: Iterable[dict[str, Any]], done: Callable[[dict[str, Any]],
     """Let workers write the object files of these jobs; done(job) is called, here, as each is finished.
 
     Jobs that stand near each other in the list have functions in common, which a worker translates once: half of the workers begin at
-    its end. What was written before an interruption stays. Raises CompilationError of the first job that fails.
+    its end. What was written before an interruption stays. Raises CompilationError of the first job that fails, OSError
+    where its file cannot be written.
     """
     left = deque(jobs)
     if left and find_spec("numba") is None:
@@ -195,7 +203,7 @@ def compile_all(jobs: Iterable[dict[str, Any]], done: Callable[[dict[str, Any]],
                 while (job := _next(take)) is not None:
                     _compile(process, job)
                     finished.put(job)
-            except CompilationError as found:  # the process can take other jobs
+            except (CompilationError, OSError) as found:  # the process can take other jobs
                 problem = found
             COMPILERS.give_back(process)
         except BaseException as found:  # whatever it is, nobody may wait for it
@@ -230,7 +238,7 @@ def _next(take: Callable[[], dict[str, Any]]) -> dict[str, Any] | None:
 
 
 def _compile(process: Process, job: dict[str, Any]) -> None:
-    """Raises CompilationError."""
+    """Raises CompilationError, and OSError where the file cannot be written."""
     try:
         answer = process.ask({**job, "places": sys.path})
     except EndedError as ended:

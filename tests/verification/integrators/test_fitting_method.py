@@ -186,10 +186,25 @@ def test_other_choices_together_do_three_times_the_work_of_the_first(monkeypatch
         return done[-1]
 
     monkeypatch.setattr(second_run, "attempt", noted)
-    cantilever().simulate(duration=0.02, verify=True)
+    trust = cantilever().simulate(duration=0.02, verify=True).trust
     work = [simulation._work_of(each) for each in done]
     assert len(work) > 1
     assert sum(work[1:]) <= 3.0 * work[0]
+    told = [item.text for item in trust.items if item.name == "quantities" and item.verdict != "green"]
+    assert told
+    step = f"steps of {done[-1].plan.settings.step / 4.0 * 1e6:.3g} µs"
+    assert all(text.endswith(f"not begun: generalised-alpha, {step}, as {simulation.SPENT}") for text in told)
+
+
+@pytest.mark.parametrize("given", [{"tolerance": 1e-3}, {"tolerance": 1e-8}])
+def test_a_choice_that_settings_keep_off_is_told(given):
+    """Energy of an undamped spring: the tolerance that is given is kept, and the line says so, unless it is green."""
+    spring = machine(block({**STIFF, "stiffness": 2e4, "damping": 0.0}, start={"displacement": 1e-3}))
+    energy = next(
+        item for item in spring.simulate(duration=1.0, verify=True, **given).trust.items if item.name == "energy"
+    )
+    assert (energy.verdict == "green") == (given["tolerance"] == 1e-8)
+    assert energy.text.endswith("not begun: other steps, as `tolerance` is given") == (energy.verdict != "green")
 
 
 def test_steps_of_one_cost_where_a_machine_is_stepped():

@@ -9,7 +9,7 @@ start, but of beams, whose vibrations it would follow. The choice whose report i
 
 import json
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from math import ceil, inf
 from os import PathLike
 from typing import Final
@@ -62,6 +62,11 @@ BRANCHED: Final = "no method is named, and steps that follow the motion turn whe
 MOST_PARTS, MARGIN = 16, 1.5
 # They are divided, and tolerances are, again where that leaves less than this share of what was not green.
 LESS = 0.5
+# Why a choice was not begun.
+SPENT: Final = "other choices had done the work that they may do"
+LITTLE: Final = f"the one before left more than {LESS:.0%} of what was not green"
+CUT: Final = "the second run, which would be the result, did not come to its end"
+REFUSED: Final = "other settings do not go with it"
 
 
 class Try(Struct):
@@ -97,12 +102,12 @@ def second_choice(
         choices.judged.append((choice, assess(choice.run)))
         tries.append(_tried(*choices.judged[-1]))
     best, trust = choices.best
-    return best, _with_tries(trust, tries, best.plan)
+    return best, _with_tries(trust, tries, best.plan, choices.not_begun)
 
 
 class Choices:
     """Other choices of a run, which together do no more than MOST_TIMES the work of the first one. judged : those that came to their end,
-    with their reports; the first one at the start. left : work that the next ones may do."""
+    with their reports; the first one at the start. left : work that the next ones may do. not_begun : why, of others in words."""
 
     def __init__(self, plan: Plan, options: attempts.Options, judged: list[tuple[attempts.Attempt, Trust]]) -> None:
         assert plan.asked is not None
@@ -114,6 +119,7 @@ class Choices:
         )
         self.left = attempts.most_work(longer * _work_of(first), len(first.prepared.start))
         self.share = first.finished.work / max(_work_of(first), 1)  # of a choice's work, before it is verified
+        self.not_begun: dict[str, str] = {}
 
     @property
     def best(self) -> tuple[attempts.Attempt, Trust]:
@@ -124,11 +130,13 @@ class Choices:
         """They are made when they are asked for."""
         plan, asked, (first, trust) = self.plan, self.asked.simulation.model_fields_set, self.judged[0]
         if any(item.name == "branch" and item.verdict != "green" for item in trust.items):
-            yield from self._started(other_run(plan, OF_FIXED_STEPS), BRANCHED)
+            yield from self._started(plan, OF_FIXED_STEPS, reason=BRANCHED)
         if "states" in _open_lines(trust):
             scales = {each.place[1]: each.largest for each in look_at_states(first.run)}
             scaled = replace(plan, asked=with_scales(self.asked, scales))
-            yield from self._started(other_run(scaled, plan.settings.integrator))
+            yield from self._started(scaled, plan.settings.integrator)
+        if kept := asked & ({"tolerance"} if plan.settings.tolerance is not None else {"tolerance", "step"}):
+            self.not_begun["other steps"] = f"`{min(kept)}` is given"
         if "tolerance" in asked:
             return
         if plan.settings.tolerance is not None:
@@ -137,17 +145,19 @@ class Choices:
             yield from self._shorter()
         usual = (FOR_STIFF, USUAL_TOLERANCE)
         if (plan.settings.integrator, plan.settings.tolerance) != usual and not plan.machine.beams:
-            yield from self._started(other_run(plan, FOR_STIFF), AT_LAST)
+            yield from self._started(plan, FOR_STIFF, reason=AT_LAST)
 
     def _finer(self) -> Iterator[attempts.Attempt]:
         """Second runs as results, as long as each is much better than the one before."""
         (last, report), before = self.judged[0], inf
-        while _excess(report) < LESS * before and self.left > 0.0 and last.plan.settings.tolerance is not None:
-            plan = other_run(
-                self.plan, self.plan.settings.integrator, tolerance=attempts.TENTH * last.plan.settings.tolerance
-            )
-            choice = None if plan is None else _verified_anew(last, plan, self.options)
+        while last.plan.settings.tolerance is not None:
+            tolerance = attempts.TENTH * last.plan.settings.tolerance
+            plan = other_run(self.plan, self.plan.settings.integrator, tolerance=tolerance)
+            little = _excess(report) >= LESS * before
+            why = REFUSED if plan is None else LITTLE if little else SPENT if self.left <= 0.0 else CUT
+            choice = _verified_anew(last, plan, self.options) if plan is not None and why is CUT else None
             if choice is None:
+                self.not_begun[_words(self.plan.settings.integrator, tolerance=tolerance)] = why
                 return
             self.left -= _work_of(choice) - choice.finished.work
             yield choice
@@ -159,27 +169,34 @@ class Choices:
         """Shorter fixed steps: as short as the lines that are not green ask for, the usual ones at first, and as work allows."""
         (last, report), before = self.judged[0], inf
         usual, order = self.asked.simulation.step, INTEGRATORS[self.plan.settings.integrator].order
-        while (longer := int(last.plan.settings.step / usual * (1.0 + 1e-9))) > 1 or _excess(report) < LESS * before:
+        while True:
+            longer = int(last.plan.settings.step / usual * (1.0 + 1e-9))
             wanted = max(2, ceil((MARGIN * _excess(report)) ** (1.0 / order)))
             affordable = int(self.left / max(_work_of(last), 1))
-            parts = min(MOST_PARTS, wanted, affordable, longer if longer > 1 else wanted)
-            if parts < 2:
+            parts = min(MOST_PARTS, wanted, longer if longer > 1 else wanted)
+            little = longer <= 1 and _excess(report) >= LESS * before
+            if little or affordable < 2:
+                words = _words(self.plan.settings.integrator, step=last.plan.settings.step / parts)
+                self.not_begun[words] = LITTLE if little else SPENT
                 return
-            step = last.plan.settings.step / parts
-            yield from self._started(other_run(self.plan, self.plan.settings.integrator, step=step))
+            step = last.plan.settings.step / min(parts, affordable)
+            yield from self._started(self.plan, self.plan.settings.integrator, step=step)
             if self.judged[-1][0].plan.settings.step != step:
                 return
             before, (last, report) = _excess(report), self.judged[-1]
 
-    def _started(self, plan: Plan | None, reason: str = "") -> Iterator[attempts.Attempt]:
-        """A run of its own, in memory; none where the machine cannot be prepared for it."""
-        if plan is None:
-            return
-        plan = replace(plan, asked=self.asked, reason=reason or plan.reason)
-        choice = _run(plan, replace(self.options, most=self.left * self.share))
+    def _started(self, first: Plan, name: str, *, reason: str = "", **changes: float) -> Iterator[attempts.Attempt]:
+        """A run of its own, in memory, with this integrator and other changes of its settings; none where the machine cannot be prepared
+        for it, or no work is left."""
+        plan, choice = other_run(first, name, **changes), None
+        if plan is not None and self.left > 0.0:
+            plan = replace(plan, asked=self.asked, reason=reason or plan.reason)
+            choice = _run(plan, replace(self.options, most=self.left * self.share))
         if choice is not None:
             self.left -= _work_of(choice)
             yield choice
+        else:
+            self.not_begun[name if plan is None else in_words(plan)] = REFUSED if self.left > 0.0 else SPENT
 
 
 def _work_of(choice: attempts.Attempt) -> int:
@@ -228,12 +245,12 @@ def _instead_of_failed(first: attempts.Attempt, options: attempts.Options) -> at
 def in_words(plan: Plan) -> str:
     """Method and steps of a plan."""
     settings = plan.settings
-    by = (
-        f"tolerance {settings.tolerance:.0e}"
-        if settings.tolerance is not None
-        else f"steps of {seconds(settings.step)}"
-    )
-    return f"{settings.integrator}, {by.replace('e-0', 'e-')}"
+    return _words(settings.integrator, tolerance=settings.tolerance, step=settings.step)
+
+
+def _words(name: str, *, tolerance: float | None = None, step: float = 0.0) -> str:
+    by = f"tolerance {tolerance:.0e}" if tolerance is not None else f"steps of {seconds(step)}"
+    return f"{name}, {by.replace('e-0', 'e-')}"
 
 
 def _why_not(choice: attempts.Attempt) -> str:
@@ -265,8 +282,8 @@ def _tried(choice: attempts.Attempt, trust: Trust) -> Try:
     return Try(in_words(choice.plan), {name: min(found, key=order.index) for name, found in worst.items()})
 
 
-def _with_tries(trust: Trust, tries: list[Try], plan: Plan) -> Trust:
-    """The report whose lines that are not green say what was tried."""
+def _with_tries(trust: Trust, tries: list[Try], plan: Plan, not_begun: Mapping[str, str]) -> Trust:
+    """The report whose lines that are not green say what was tried, and which choices were not begun, and why."""
     others = [each for each in tries if each.words != in_words(plan)]
     items = []
     for item in trust.items:
@@ -275,6 +292,8 @@ def _with_tries(trust: Trust, tries: list[Try], plan: Plan) -> Trust:
             said = "; no step makes this better: it is not of the steps"
         elif item.verdict != "green" and item.name in OF_STEPS and others:
             said = f"; tried: {', '.join(f'{each.words}: {each.gave(item.name)}' for each in others)}"
+        if item.verdict != "green" and item.name in OF_STEPS and not_begun:
+            said += f"; not begun: {', '.join(f'{words}, as {why}' for words, why in not_begun.items())}"
         items.append(replace(item, text=f"{item.text}{said}"))
     return replace(trust, items=tuple(items))
 

@@ -1,7 +1,5 @@
 """Integrators by name: the facts beside the steps, found in the folders of the families. A folder is imported when it is first asked."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib import import_module

@@ -1,7 +1,5 @@
 """Stabilisation methods by name: what they set in `control.stabilise`, and whether states are corrected after a step."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from nivel.lazy import dataclass

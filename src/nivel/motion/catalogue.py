@@ -1,7 +1,5 @@
 """Coordinates and formulations by name. This file imports no kernel: a path's modules are loaded, and compiled, when it is used."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import Any
 

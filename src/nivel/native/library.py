@@ -1,8 +1,6 @@
 """Addresses of entries: in the library that a wheel brought along, or in object files of the user's cache, compiled first where there is
 none."""
 
-from __future__ import annotations
-
 import atexit
 import sys
 from collections.abc import Callable, Iterable, Sequence

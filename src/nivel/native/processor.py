@@ -3,8 +3,6 @@
 ``NIVEL_PROCESSOR_LEVEL`` names a level. Machine code is then for every processor of this level, and on all of them the same.
 """
 
-from __future__ import annotations
-
 import os
 import platform
 from functools import cache

@@ -3,8 +3,6 @@
 `manifest.json` beside it says of which sources each entry was made. An entry whose sources have changed since is not taken from it.
 """
 
-from __future__ import annotations
-
 import ctypes
 import json
 import sys

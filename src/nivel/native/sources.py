@@ -5,8 +5,6 @@ stands beside records, descriptions and pictures: there it is the text of the co
 names, directly or not, and of what these import.
 """
 
-from __future__ import annotations
-
 import ast
 import hashlib
 import json

@@ -6,8 +6,6 @@ a digest of the rest, so a damaged file is found out and compiled again. Where a
 Files stand in a folder that only the user can write; where there is none, in a new folder for this process.
 """
 
-from __future__ import annotations
-
 import errno
 import hashlib
 import os

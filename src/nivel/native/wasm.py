@@ -5,8 +5,6 @@ byte behind its own data and its stack. Format of objects: WebAssembly tool conv
 Specification 1.0, chapter 5.
 """
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field

@@ -4,8 +4,6 @@ A job is the name of an entry and files to write, each for this processor or a n
 is one, and the file to write.
 """
 
-from __future__ import annotations
-
 import gc
 import hashlib
 import sys

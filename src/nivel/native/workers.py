@@ -1,7 +1,5 @@
 """Processes that answer jobs, one after the other, and end with this one; and those that compile, as many as there are processors."""
 
-from __future__ import annotations
-
 import atexit
 import json
 import os

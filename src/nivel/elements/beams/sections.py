@@ -5,8 +5,6 @@ Section axes: x along the beam, y and z across it, at the line of the beam. Stra
 curvatures; the strain of a point r of the section is Γ + Κ × r.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 

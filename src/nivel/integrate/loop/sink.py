@@ -1,7 +1,5 @@
 """Sinks that take the frames of a running simulation."""
 
-from __future__ import annotations
-
 from typing import Protocol
 
 import numpy as np

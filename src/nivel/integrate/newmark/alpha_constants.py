@@ -7,8 +7,6 @@ for the accelerations; (1 - δ_m) w₁ + δ_m w₀ = (1 - δ_f) ẋ₁ + δ_f �
 1993, in the form of Arnold, Brüls 2007, in which all forces and constraints are those of the end of the step.
 """
 
-from __future__ import annotations
-
 Constants = tuple[float, ...]
 # ρ∞ where none is given. The formulas put what bends in a step, h² q⃛, into the speed of a stiff spring that turns. At infinite frequency
 # ρ∞ is a threefold eigenvalue, so what one step leaves there grows before it decays; where every other step is of another length, it must

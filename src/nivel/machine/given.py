@@ -6,6 +6,8 @@ such an annotation is the first of the three types, by which pydantic reads the 
 ``Maybe[…]`` of what it holds else.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final, Generic, TypeVar, dataclass_transform, get_args
 

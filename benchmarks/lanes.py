@@ -48,7 +48,7 @@ def main() -> None:
 
 def measured(machine: nivel.Machine, path: str, values: np.ndarray, *, singly: bool) -> tuple[float, float, float]:
     """Processor time [s] of the batch and of its loops, and the share in lanes."""
-    with patch.object(variant_runs, "unfit", (lambda _: "asked for") if singly else variant_runs.unfit):
+    with patch.object(variant_runs, "unfit", (lambda *_: "asked for") if singly else variant_runs.unfit):
         begin = process_time()
         found = machine.batch({path: values}, threads=1)
         whole = process_time() - begin

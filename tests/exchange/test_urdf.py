@@ -372,3 +372,14 @@ def test_a_file_beside_the_model_says_which_frames_close_a_loop_and_how(tmp_path
     beside.unlink()
     alone = data(tmp_path, four_bar("3d").replace("closing_pin_2", "two"))
     assert any("closing_pin_1" in each for each in alone["left_out"])
+
+
+def test_a_link_next_to_no_mass_in_a_closed_loop_has_no_part_in_its_mechanics(tmp_path, monkeypatch):
+    plain = nivel.import_model(written(tmp_path, four_bar("3d"))).mechanics()
+    for name in ("MB", "JB"):
+        monkeypatch.setitem(globals(), name, 1e-9)
+    light = nivel.import_model(written(tmp_path, four_bar("6d"))).mechanics()
+    v, tau = np.array([0.3]), np.array([0.2])
+    assert light.mass_matrix(plain.start) == pytest.approx(plain.mass_matrix(plain.start), rel=1e-7)
+    expected = plain.forward_dynamics(plain.start, v, tau)
+    assert light.forward_dynamics(plain.start, v, tau) == pytest.approx(expected, rel=1e-7)

@@ -7,7 +7,7 @@ and `#` begin comments, a key without a value is absent, rows of tables are coun
 import re
 from typing import Any, Final
 
-from nivel.elements.forces.magic_formula import SCALES, MagicFormula, faults_of
+from nivel.elements.forces.magic_formula import POSITIVE, SCALES, MagicFormula, faults_of
 from nivel.files.outline import section_of
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree
@@ -162,7 +162,7 @@ def _check(read: TyreFile, units: dict[str, tuple[int, str]], scaling: set[str])
         value = read.numbers.pop(key, 0.0) * factors[kind] / (1.0 if power > 0 else factors["LENGTH"])
         if value < 0.0:
             read.faults.append((read.lines[key], f"`{key}`: a positive number was expected, got {value:g}"))
-        if value:  # zero is not told
+        if value or (key in read.lines and key in POSITIVE):  # zero of what may be missing is not told
             read.numbers[key] = value
     told = {line for line, _ in read.faults}
     for key, text in faults_of(read.numbers):

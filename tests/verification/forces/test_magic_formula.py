@@ -347,6 +347,7 @@ def said(folder, text):
         ("'meter'", "'ell'", "line 7: `LENGTH`: one of meter"),
         ("ANGLE                    = 'radians'", "ANGLE = 'degrees'", "line 9: `ANGLE`"),
         ("= 4000\n", "= -4000\n", "`FNOMIN`: a positive number was expected"),
+        ("= 4000\n", "= 0\n", "line 26: `FNOMIN`: a positive number was expected, got 0"),
         ("= 4000\n", "= 1e999\n", "`FNOMIN`: a finite number was expected"),
         ("LMUX  ", "LWET = 0.5\nLMUX  ", "`LWET`: this scaling factor is not known here but as 1"),
         ("LMUX                     = 1", "LMUX = 0", "`LMUX`: a positive number was expected"),

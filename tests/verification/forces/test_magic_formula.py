@@ -1,4 +1,4 @@
-"""Tyres of `.tir` files against formulas that are written here once more, after Pacejka 2012, 4.3.2, and against their symmetries."""
+"""Tyres of `.tir` files against formulas that are written here once more, after Pacejka 2012, 4.3.2, foreign codes and symmetries."""
 
 import math
 from pathlib import Path
@@ -186,6 +186,54 @@ def test_forces_and_moments_are_those_of_the_book(version):
         found = ours(formula, load, kappa, alpha, gamma, pressure, 20.0)
         expected = book(formula.coefficients, version, load, kappa, alpha, gamma, pressure, 20.0)
         np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-11 * load)
+
+
+# The tyre of `vehiclemodels/parameters/parameters_tire.yaml`, but for p_vx1, which `formula_longitudinal` adds within the sine
+COMMONROAD = {"PCX1": 1.6411, "PDX1": 1.1739, "PEX1": 0.46403, "PKX1": 22.303, "PHX1": 0.0012297, "PVX1": 0.0, "RBX1": 13.276,
+              "RBX2": -13.778, "RCX1": 1.2568, "REX1": 0.65225, "RHX1": 0.0050722, "PCY1": 1.3507, "PDY1": 1.0489, "PDY3": -2.8821,
+              "PEY1": -0.0074722, "PKY1": -21.92, "PHY1": 0.0026747, "PHY3": 0.031415, "PVY1": 0.037318, "PVY3": -0.32931,
+              "RBY1": 7.1433, "RBY2": 9.1916, "RBY3": -0.027856, "RCY1": 1.0719, "REY1": -0.27572, "RHY1": 5.7448e-06,
+              "RVY1": -0.027825, "RVY3": -0.27568, "RVY4": 12.12, "RVY5": 1.9, "RVY6": -10.704}  # fmt: skip
+
+
+def at_its_load(load, coefficients):
+    """A formula of version 5.2 whose nominal load is this one, with K_yα = PKY1 F_z, as others simplify it."""
+    common = {"FNOMIN": load, "PKY2": 1.0, "UNLOADED_RADIUS": 0.32, "LONGVL": 16.6}
+    return MagicFormula(version="5.2", coefficients={**coefficients, **common})
+
+
+@pytest.mark.parametrize(
+    ("load", "kappa", "alpha", "gamma", "fx", "fy"),
+    [
+        (4000.0, 0.03, 0.0, 0.01, 2492.123049759329, -51.12706978344582),
+        (4000.0, 0.0, -0.05, 0.02, 88.2996274678328, 3264.702372038094),
+        (2500.0, -0.1, 0.06, 0.05, -2388.0361125256222, -1995.508729111759),
+        (6000.0, 0.2, 0.3, 0.1, 3486.238115992122, -5499.373495728831),
+        (1000.0, -0.9, -0.6, 0.03, -675.2334743586206, 554.1618697869354),
+        (8000.0, 0.01, 0.01, 0.14, 1920.8863733965932, -2825.839439994713),
+    ],
+)
+def test_combined_slips_have_the_forces_of_commonroad_vehicle_models(load, kappa, alpha, gamma, fx, fy):
+    """By `formula_longitudinal_comb` and `formula_lateral_comb` of commonroad-vehicle-models 3.0.2 (slips in the signs of the book)."""
+    found = ours(at_its_load(load, COMMONROAD), load, kappa, alpha, gamma, None, 20.0)
+    assert found[:2] == pytest.approx((fx, fy), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("load", "b", "c", "d", "e", "slip", "force"),
+    [
+        (4000.0, 10.0, 1.65, 1.0, 0.5, 0.07, 3270.3865797773847),
+        (1500.0, 18.0, 1.3, 0.8, -2.0, -0.3, -1116.793442128009),
+        (7000.0, 7.0, 1.9, 1.2, 0.9, 0.9, 7395.527270867627),
+    ],
+)
+def test_one_slip_alone_has_the_curve_of_pacejka(load, b, c, d, e, slip, force):
+    """By `Tire._magic_formula_core` of pacejka 0.1.0, B, C, D/F_z and E given."""
+    formula = at_its_load(
+        load, {"PCX1": c, "PDX1": d, "PEX1": e, "PKX1": b * c * d, "PCY1": c, "PDY1": d, "PEY1": e, "PKY1": -b * c * d}
+    )
+    assert ours(formula, load, slip, 0.0, 0.0, None, 20.0)[0] == pytest.approx(force, rel=1e-12)
+    assert ours(formula, load, 0.0, slip, 0.0, None, 20.0)[1] == pytest.approx(-force, rel=1e-12)
 
 
 def test_one_slip_alone_has_the_slopes_of_the_file():

@@ -46,7 +46,7 @@ class Verified(Struct):
     ended: str
 
 
-def look_at_error(run: Run) -> Accuracy:
+def _look_at_error(run: Run) -> Accuracy:
     """What two runs are apart by, and what both may have wrong by the rounding of times."""
     finer = run.finer
     rounded = rounding_of_times(run.machine, float(run.result.time[-1]))
@@ -58,8 +58,7 @@ def look_at_error(run: Run) -> Accuracy:
     return Accuracy(found.value, found.row, found.time, words, until, blind, run.scales, parted)
 
 
-def say_error(found: Accuracy) -> Item:
-    """How far the motion is from the exact one."""
+def _say_error(found: Accuracy) -> Item:
     fraction = found.error / found.scales.size
     by = f"by a second run with {found.refinement}"
     if found.parted is not None:
@@ -78,13 +77,12 @@ def say_error(found: Accuracy) -> Item:
     return ACCURACY.item("accuracy", f"Accuracy: {said}", fraction, found.time, found.body)
 
 
-def look_at_end(run: Run) -> Verified | None:
+def _look_at_end(run: Run) -> Verified | None:
     """Where the second run ended before the first."""
     return Verified(run.finer.until, run.finer.ended) if run.finer.ended else None
 
 
-def say_end(found: Verified) -> Item:
-    """How far the run was verified."""
+def _say_end(found: Verified) -> Item:
     text = f"Verified: up to t = {found.until:.6g} s only, not verified beyond: {found.ended}"
     return Item("verified", "amber", f"{text} (green if verified to the end, amber otherwise)", time=found.until)
 
@@ -150,7 +148,7 @@ class Growth(Struct):
     parted: float
 
 
-def look_at_growth(run: Run) -> Growth | None:
+def _look_at_growth(run: Run) -> Growth | None:
     """How neighbouring motions part: None where they do not, or no faster than with a power of time, or stay near to the end."""
     result, finer, left = run.result, run.finer.result, run.finer.refinement.left
     size, motion = run.scales.size, Motion.of(result)
@@ -169,8 +167,7 @@ def look_at_growth(run: Run) -> Growth | None:
     return Growth(1.0 / float(rate), float(time[np.argmax(running >= PARTED)]))
 
 
-def say_growth(found: Growth) -> Item:
-    """How fast neighbouring motions part, and what is left to say then."""
+def _say_growth(found: Growth) -> Item:
     text = (
         f"Sensitivity: neighbouring motions separate by a factor e every {number(found.time_constant)} s, and have separated at t = "
         f"{found.parted:.6g} s: the motion is chaotic; after that time only means and extremes are meaningful "
@@ -203,7 +200,7 @@ class Rounding(Struct):
     share: float
 
 
-def look_at_rounding(run: Run) -> Rounding | None:
+def _look_at_rounding(run: Run) -> Rounding | None:
     """What the places of bodies are rounded to, against what all steps can lose by it: half a unit in the last place each."""
     result, steps = run.result, int(run.finished.timing["steps"])
     if "position" not in result.variables:
@@ -217,8 +214,7 @@ def look_at_rounding(run: Run) -> Rounding | None:
     return Rounding(result.coordinates["body"][body], float(largest[body]), unit, share)
 
 
-def say_rounding(found: Rounding) -> Item:
-    """Where it is, and what it loses there."""
+def _say_rounding(found: Rounding) -> Item:
     far = f"{found.body} is {number(found.distance)} m from the origin, where positions are rounded to {number(found.unit)} m"
     lost = f"over all steps this may add up to {number(found.share)} of the machine's size"
     said = f"Round-off: {far}; {lost}; move the machine to the origin"
@@ -226,8 +222,10 @@ def say_rounding(found: Rounding) -> Item:
 
 
 CHECKS = (
-    Check("accuracy", Run, look_at_error, say_error, 80, (VERIFIED, FRAMES), "Accuracy", ACCURACY, last=True),
-    Check("verified", Run, look_at_end, say_end, 90, (VERIFIED,), "Verified"),
-    Check("sensitivity", Run, look_at_growth, say_growth, 340, (SECOND_RUN,), "Sensitivity"),
-    Check("rounding", Run, look_at_rounding, say_rounding, 240, (STEPS,), "Round-off", ROUNDING, FAR_AWAY, quiet=True),
+    Check("accuracy", Run, _look_at_error, _say_error, 80, (VERIFIED, FRAMES), "Accuracy", ACCURACY, last=True),
+    Check("verified", Run, _look_at_end, _say_end, 90, (VERIFIED,), "Verified"),
+    Check("sensitivity", Run, _look_at_growth, _say_growth, 340, (SECOND_RUN,), "Sensitivity"),
+    Check(
+        "rounding", Run, _look_at_rounding, _say_rounding, 240, (STEPS,), "Round-off", ROUNDING, FAR_AWAY, quiet=True
+    ),
 )

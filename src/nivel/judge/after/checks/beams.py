@@ -49,13 +49,11 @@ class Coarse(Struct):
     order: int
 
 
-def look_at_mesh(run: Run) -> Coarse | None:
-    """The beam whose elements miss most."""
+def _look_at_mesh(run: Run) -> Coarse | None:
     return coarsest(run.result, meshes(run.machine))
 
 
-def say_mesh(coarse: Coarse) -> Item:
-    """What the elements of a beam miss, and what to do."""
+def _say_mesh(coarse: Coarse) -> Item:
     advice = "use twice as many, or `order: 2`" if coarse.order == 1 else "use twice as many"
     said = (
         f"Mesh: the {coarse.elements} elements of {coarse.beam} miss {number(coarse.share)} of the largest energy at "
@@ -142,7 +140,7 @@ class Softened(Struct):
     off: float
 
 
-def look_at_buckling(subject: Equilibria) -> OtherStability | Softened | None:
+def _look_at_buckling(subject: Equilibria) -> OtherStability | Softened | None:
     """Whether finer elements have the states, and how soft they are."""
     compared, result = subject.elements, subject.result
     if compared is None or compared.result is None or compared.why:
@@ -161,8 +159,7 @@ def look_at_buckling(subject: Equilibria) -> OtherStability | Softened | None:
     return Softened(float(result.time[-1]), 1.0 - own.last / own.drawn, off)
 
 
-def say_buckling(found: OtherStability | Softened) -> Item:
-    """How near buckling is, and what to do."""
+def _say_buckling(found: OtherStability | Softened) -> Item:
     at, advice = f"at t = {found.time:.6g} s", "use twice as many `elements`"
     if isinstance(found, OtherStability):
         said = (
@@ -220,8 +217,7 @@ class Off(Struct):
         return self.error / self.scale
 
 
-def look_farthest(subject: Run | Equilibria) -> Farthest | None:
-    """The largest error of a place."""
+def _look_farthest(subject: Run | Equilibria) -> Farthest | None:
     errors = _compared(subject).errors
     if errors is None or "position" not in errors.values:
         return None
@@ -230,8 +226,7 @@ def look_farthest(subject: Run | Equilibria) -> Farthest | None:
     return Farthest(float(off[k, body]), subject.result.coordinates["body"][body], float(errors.time[k]))
 
 
-def say_farthest(found: Farthest) -> Item:
-    """How far places are from those with finer elements."""
+def _say_farthest(found: Farthest) -> Item:
     where = f", most at {found.body}, t = {found.time:.6g} s" if found.error else ""
     said = f"Elements: places are within about {number(found.error)} m of those with finer elements of beams{where}"
     return Item("elements", "green", f"{said} (said, always green)", row=found.body, time=found.time)
@@ -377,8 +372,10 @@ def _vibrations(result: Readable, found: Compared) -> Off | None:
 
 
 CHECKS = (
-    Check("elements", (Run, Equilibria), look_farthest, say_farthest, 275, (OTHERS, FRAMES), "Elements"),
+    Check("elements", (Run, Equilibria), _look_farthest, _say_farthest, 275, (OTHERS, FRAMES), "Elements"),
     Check("element_size", (Run, Equilibria), look, say, 282, (OTHERS, FRAMES), "Mesh", MESH, line="mesh", quiet=True),
-    Check("beam_mesh", Run, look_at_mesh, say_mesh, 280, (STEPS,), "Mesh", MESH, line="mesh", quiet=True),
-    Check("near_buckling", Equilibria, look_at_buckling, say_buckling, 284, (OTHERS, FRAMES), line="mesh", quiet=True),
+    Check("beam_mesh", Run, _look_at_mesh, _say_mesh, 280, (STEPS,), "Mesh", MESH, line="mesh", quiet=True),
+    Check(
+        "near_buckling", Equilibria, _look_at_buckling, _say_buckling, 284, (OTHERS, FRAMES), line="mesh", quiet=True
+    ),
 )

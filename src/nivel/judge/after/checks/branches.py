@@ -32,14 +32,12 @@ class Unsearched(Struct):
     why: str
 
 
-def look_for_passages(run: Run) -> Passages | None:
-    """The singular positions that the run passed."""
+def _look_for_passages(run: Run) -> Passages | None:
     found = tuple(passages(run))
     return Passages(found) if found else None
 
 
-def say_passages(found: Passages) -> Item:
-    """When, and which constraints depend on each other then."""
+def _say_passages(found: Passages) -> Item:
     every = found.every
     times = ", ".join(f"{each.time:.6g}" for each in every[:SHOWN]) + (" …" if len(every) > SHOWN else "")
     joints = ", ".join(dict.fromkeys(name for each in every for name in each.joints))
@@ -51,13 +49,13 @@ def say_passages(found: Passages) -> Item:
     return Item("singular", "amber", text, row=joints, time=every[0].time)
 
 
-def look_unsearched(run: Run) -> Unsearched | None:
+def _look_unsearched(run: Run) -> Unsearched | None:
     """Why the machine, which may have some, was not searched for singular positions."""
     why = why_not(run) if can_be_singular(run) else ""
     return Unsearched(why) if why else None
 
 
-def say_unsearched(found: Unsearched) -> Item:
+def _say_unsearched(found: Unsearched) -> Item:
     """That it was not. The line is green: nothing is known against the result."""
     return Item("unexamined", "green", f"Not examined: singular positions that the machine may pass: {found.why}")
 
@@ -81,7 +79,7 @@ class Change(Struct):
     second: bool
 
 
-def look_for_change(run: Run) -> Change | None:
+def _look_for_change(run: Run) -> Change | None:
     """The first change of the run, or of its second run."""
     if not can_be_singular(run) or why_not(run):
         return None
@@ -147,8 +145,7 @@ def short_steps(time: Array, pace: Array, duration: float) -> NDArray[np.intp]:
     return np.clip(np.searchsorted(time, at) - 1, 0, len(time) - 2)
 
 
-def say_change(found: Change) -> Item:
-    """When, and what follows."""
+def _say_change(found: Change) -> Item:
     joints, green = ", ".join(found.joints), "(green if no branch is changed)"
     among = f"(constraints of {joints} depend on each other)"
     at, verdict = f"at t = {found.time:.6g} s", "amber"
@@ -174,7 +171,7 @@ CHANGED = "at t = {time} s one of them changes the branch of its motion"
 
 
 CHECKS = (
-    Check("singular", Run, look_for_passages, say_passages, 250, (SECOND_RUN,), "Singular position", blind=SEVERAL),
-    Check("unsearched", Run, look_unsearched, say_unsearched, 912, (SECOND_RUN,), line="unexamined"),
-    Check("branch", Run, look_for_change, say_change, 252, (STEPS,), "Branch", blind=CHANGED),
+    Check("singular", Run, _look_for_passages, _say_passages, 250, (SECOND_RUN,), "Singular position", blind=SEVERAL),
+    Check("unsearched", Run, _look_unsearched, _say_unsearched, 912, (SECOND_RUN,), line="unexamined"),
+    Check("branch", Run, _look_for_change, _say_change, 252, (STEPS,), "Branch", blind=CHANGED),
 )

@@ -122,8 +122,7 @@ def say_mass(found: FluidMass) -> Item:
     return BALANCE.item("fluid mass", said, found.fraction, found.time)
 
 
-def look_for_cavitation(run: Motion) -> list[Cavitation]:
-    """Pressures of liquids that fall too low."""
+def _look_for_cavitation(run: Motion) -> list[Cavitation]:
     out, result = [], run.result
     signals = {f"{START}{each['name']}.pressure" for each in _components(result) if each["type"] == "load-sensing"}
     for name in result.variables:
@@ -140,20 +139,18 @@ def look_for_cavitation(run: Motion) -> list[Cavitation]:
     return out
 
 
-def say_cavitation(found: Cavitation) -> Item:
-    """How low a pressure falls, and for how long."""
+def _say_cavitation(found: Cavitation) -> Item:
     said = f"the fluid cavitates: {found.name} falls to {found.lowest / 1e5:.3g} bar at t = {found.time:.6g} s"
     text = f"Cavitation: {said}, and is below {CAVITATES / 1e5:.2g} bar for {100 * found.share:.3g} % of the run"
     return Item("cavitation", "amber", text, row=found.name, time=found.time)
 
 
-def look_at_valves(run: Motion) -> list[Saturation]:
+def _look_at_valves(run: Motion) -> list[Saturation]:
     """Valves that are at one end for the whole run: spools with a centre between their ends, and relief valves fully open."""
     return list(_saturated(run.result))
 
 
-def say_saturation(found: Saturation) -> Item:
-    """A valve that does nothing."""
+def _say_saturation(found: Saturation) -> Item:
     said = (
         f"the valve {found.name} is at the end of its stroke for the whole run; does its command have the right scale?"
     )
@@ -164,7 +161,7 @@ def say_saturation(found: Saturation) -> Item:
     return Item("saturation", "amber", f"Saturation: {said}", row=found.name)
 
 
-def look_for_stalls(run: Motion) -> list[Stall]:
+def _look_for_stalls(run: Motion) -> list[Stall]:
     """Engines that turn backwards: the law of an engine goes on there, and real ones have stopped."""
     found, time = [], np.asarray(run.result.time)
     for engine in _components(run.result):
@@ -175,14 +172,13 @@ def look_for_stalls(run: Motion) -> list[Stall]:
     return found
 
 
-def say_stall(found: Stall) -> Item:
-    """An engine without sense."""
+def _say_stall(found: Stall) -> Item:
     said = f"the engine {found.name} stalls: it turns backwards from t = {found.time:.6g} s on, and what follows has no sense"
     text = f"Stall: {said}; give it more torque, or its pumps a `torque_limit`"
     return Item("stall", "amber", text, row=found.name, time=found.time)
 
 
-def look_at_steps(run: Run) -> Guard | None:
+def _look_at_steps(run: Run) -> Guard | None:
     """What the guard of steps over circuits did; None where there is none."""
     timing = run.finished.timing
     if not run.prepared.guards_circuits or not timing["steps"]:
@@ -235,8 +231,7 @@ class Saturated(Struct):
     name: str
 
 
-def look_at_control(run: Run) -> list[Saturated]:
-    """The blocks at a limit."""
+def _look_at_control(run: Run) -> list[Saturated]:
     out = []
     for block in run.machine.control:
         limits = getattr(block, "limits", None)
@@ -249,8 +244,7 @@ def look_at_control(run: Run) -> list[Saturated]:
     return out
 
 
-def say_control(found: Saturated) -> Item:
-    """A block whose gains did nothing."""
+def _say_control(found: Saturated) -> Item:
     said = f"{found.name} stood at its limits for the whole run, so its gains did nothing"
     text = f"Control: {said}; check the signs of its inputs, its gains and its limits"
     return Item("control", "amber", text, row=found.name)
@@ -259,9 +253,9 @@ def say_control(found: Saturated) -> Item:
 CHECKS = (
     Check("hydraulics", Motion, look_at_energy, say_energy, 430, (FRAMES, CIRCUITS), "Hydraulics"),
     Check("fluid mass", Motion, look_at_mass, say_mass, 440, (FRAMES, CIRCUITS), "Fluid"),
-    Check("cavitation", Motion, look_for_cavitation, say_cavitation, 450, (FRAMES, CIRCUITS), "Cavitation"),
-    Check("saturation", Motion, look_at_valves, say_saturation, 460, (FRAMES, CIRCUITS), "Saturation"),
-    Check("stall", Motion, look_for_stalls, say_stall, 465, (FRAMES, CIRCUITS), "Stall"),
-    Check("pressure steps", Run, look_at_steps, say_steps, 470, (), "Pressure steps"),
-    Check("control", Run, look_at_control, say_control, 410, (SOME_FRAMES,), "Control"),
+    Check("cavitation", Motion, _look_for_cavitation, _say_cavitation, 450, (FRAMES, CIRCUITS), "Cavitation"),
+    Check("saturation", Motion, _look_at_valves, _say_saturation, 460, (FRAMES, CIRCUITS), "Saturation"),
+    Check("stall", Motion, _look_for_stalls, _say_stall, 465, (FRAMES, CIRCUITS), "Stall"),
+    Check("pressure steps", Run, _look_at_steps, say_steps, 470, (), "Pressure steps"),
+    Check("control", Run, _look_at_control, _say_control, 410, (SOME_FRAMES,), "Control"),
 )

@@ -20,13 +20,12 @@ from nivel.results.trust import Item, Threshold, number
 SHOWN = 5  # contacts of which each has a line
 
 
-def look_for_passing(run: Run) -> list[Passed]:
+def _look_for_passing(run: Run) -> list[Passed]:
     """The pairs of spheres and of hulls that passed each other."""
     return run.passing.passed[:SHOWN]
 
 
-def say_passing(found: Passed) -> Item:
-    """Who passed whom, and what the step has to be."""
+def _say_passing(found: Passed) -> Item:
     text = (
         f"Contact: {' and '.join(found.bodies)} pass through each other at t = {found.time:.6g} s, by {number(found.overlap)} of "
         f"{found.of}, and {found.contact} does not push them apart: they overlap for only "
@@ -55,7 +54,7 @@ class Creep(Struct):
     speed: float
 
 
-def look_at_creep(run: Run) -> list[Creep]:
+def _look_at_creep(run: Run) -> list[Creep]:
     """Contacts that creep: they slide slower than the transition speed of their friction, from frame to frame."""
     time, found = run.result.time, []
     if len(time) < 2:
@@ -90,8 +89,7 @@ def _sliding(run: Run, force: Contact | Contacts) -> Array:
     return np.divide(power, friction, out=np.zeros_like(power), where=friction > 0.0)
 
 
-def say_creep(found: Creep) -> Item:
-    """How far it creeps."""
+def _say_creep(found: Creep) -> Item:
     said = (
         f"Contact: {found.contact} lets its bodies creep by {number(found.way)} m, with up to {number(found.speed)} m/s at "
         f"t = {found.time:.6g} s, where friction would hold them: a `contact` with `friction_model: stiction` does"
@@ -116,14 +114,12 @@ class Wheel(Struct):
     ratio_time: float
 
 
-def look_at_wheels(run: Motion) -> list[Wheel]:
-    """All wheels."""
+def _look_at_wheels(run: Motion) -> list[Wheel]:
     names = [name for name in run.result.variables if name.startswith("joint.") and name.endswith(NORMAL)]
     return [_wheel(run.result, name.removesuffix(NORMAL)) for name in names]
 
 
-def say_wheel(found: Wheel) -> Item:
-    """Whether a wheel stays on the plane, and does not slip."""
+def _say_wheel(found: Wheel) -> Item:
     if found.lifts is not None:
         said = (
             f"the plane would have to pull {found.name} with {number(-found.least)} N at t = {found.time:.6g} s: a real wheel "
@@ -168,8 +164,7 @@ class Laden(Struct):
     time: float
 
 
-def look_at_loads(subject: Run | Equilibria) -> list[Laden]:
-    """Every tyre."""
+def _look_at_loads(subject: Run | Equilibria) -> list[Laden]:
     out = []
     for force in subject.machine.forces:
         if (nominal := getattr(force, "nominal_load", None)) is not None:  # of tyres
@@ -179,8 +174,7 @@ def look_at_loads(subject: Run | Equilibria) -> list[Laden]:
     return out
 
 
-def say_load(found: Laden) -> Item:
-    """How much it bears, and what is known of it there."""
+def _say_load(found: Laden) -> Item:
     bears = f"{found.tyre} bears {number(found.share)} times its nominal load at t = {found.time:.6g} s"
     text = f"Tyres: {bears}, and its curves are given up to twice"
     return LADEN.item("laden", text, found.share, found.time, found.tyre)
@@ -207,7 +201,7 @@ class Moved(Struct):
     spilt: float
 
 
-def look_at_soil(run: Run) -> Moved | None:
+def _look_at_soil(run: Run) -> Moved | None:
     """None without soil."""
     names = [force.name for force in run.machine.forces if getattr(force, "soil", None) is not None]
     if not names:
@@ -220,23 +214,21 @@ def look_at_soil(run: Run) -> Moved | None:
     return Moved(names[0], sum(moved), max(missing) / by, max(spilt) / by)
 
 
-def say_moved(found: Moved) -> Item:
-    """Whether its volume was kept."""
+def _say_moved(found: Moved) -> Item:
     told = f"{number(found.volume)} m^3 moved under {found.force}, {number(found.missing)} of it missing; no second run has other cells"
     return KEPT.item("soil", f"Soil: {told}", found.missing, row=found.force)
 
 
-def say_spilt(found: Moved) -> Item:
-    """Whether soil fell beyond the border."""
+def _say_spilt(found: Moved) -> Item:
     text = f"Soil: {number(found.spilt)} of the volume moved fell beyond the border of the `heights`, on which it lies; make them larger"
     return SPILT.item("spilt", text, found.spilt, row=found.force)
 
 
 CHECKS = (
-    Check("laden", (Run, Equilibria), look_at_loads, say_load, 227, (FRAMES,), "Tyres", LADEN, quiet=True),
-    Check("contact", Run, look_for_passing, say_passing, 220, (STEPS,), "Contact", blind="their steps pass {row}"),
-    Check("creep", Run, look_at_creep, say_creep, 225, (FRAMES,), "Contact", CREEP, quiet=True),
-    Check("rolling", Motion, look_at_wheels, say_wheel, 420, (FRAMES,), "Rolling"),
-    Check("soil", Run, look_at_soil, say_moved, 228, (FRAMES,), "Soil"),
-    Check("spilt", Run, look_at_soil, say_spilt, 229, (FRAMES,), "Soil", SPILT, quiet=True),
+    Check("laden", (Run, Equilibria), _look_at_loads, _say_load, 227, (FRAMES,), "Tyres", LADEN, quiet=True),
+    Check("contact", Run, _look_for_passing, _say_passing, 220, (STEPS,), "Contact", blind="their steps pass {row}"),
+    Check("creep", Run, _look_at_creep, _say_creep, 225, (FRAMES,), "Contact", CREEP, quiet=True),
+    Check("rolling", Motion, _look_at_wheels, _say_wheel, 420, (FRAMES,), "Rolling"),
+    Check("soil", Run, _look_at_soil, _say_moved, 228, (FRAMES,), "Soil"),
+    Check("spilt", Run, _look_at_soil, _say_spilt, 229, (FRAMES,), "Soil", SPILT, quiet=True),
 )

@@ -127,13 +127,13 @@ def say_drivers(found: Followed) -> Item:
     return Item("followed", verdict, f"{said} at t = {found.time:.6g} s{some} {limits}", time=found.time)
 
 
-def look_at_replaced(subject: Actuated) -> Followed | None:
+def _look_at_replaced(subject: Actuated) -> Followed | None:
     """What another motion than that of the drivers is off from these."""
     found = farthest(subject, subject.replaced)
     return found if found is not None and found.missed > AMBER else None
 
 
-def say_replaced(found: Followed) -> Item:
+def _say_replaced(found: Followed) -> Item:
     """That efforts are those of the motion, not of the driver. It is what was asked for."""
     said = f"Drivers: the motion is not that which {found.driver} prescribes: {found.coordinate} is off by up to"
     text = f"{said} {number(found.missed)} {found.units} at t = {found.time:.6g} s (said, always green)"
@@ -167,43 +167,39 @@ class Surplus(Struct):
     actuators: int
 
 
-def look_at_motion(subject: Actuated) -> OfMotion | None:
+def _look_at_motion(subject: Actuated) -> OfMotion | None:
     """What the trust report of the motion says; None where nothing is against it."""
     trust = subject.result.trust
     return OfMotion(trust.verdict, trust.headline) if trust.verdict != "green" else None
 
 
-def say_motion(found: OfMotion) -> Item:
-    """Efforts are no better than the motion that they belong to."""
+def _say_motion(found: OfMotion) -> Item:
     said = f"Motion: its own trust report is {found.verdict}, {found.headline}"
     return Item("motion", found.verdict, f"{said} (the colour is that of the motion)")
 
 
-def look_at_joints(subject: Actuated) -> Opening | None:
+def _look_at_joints(subject: Actuated) -> Opening | None:
     """The joint of this machine that the motion opens most; None where they are closed."""
     share = subject.efforts.violation
     return None if share < OPENING.green else Opening(share)
 
 
-def say_joints(found: Opening) -> Item:
-    """That it may be a motion of another machine."""
+def _say_joints(found: Opening) -> Item:
     said = f"Joints: the motion has joints open by {found.share:.3g} of their scales, so it is not quite one of this machine"
     return OPENING.item("violation", f"{said}: is it of another one?", found.share)
 
 
-def look_at_states(subject: Actuated) -> Histories | None:
-    """States that keep their values of the start."""
+def _look_at_states(subject: Actuated) -> Histories | None:
     return Histories(subject.efforts.held) if subject.efforts.held else None
 
 
-def say_states(found: Histories) -> Item:
-    """What depends on them is wrong."""
+def _say_states(found: Histories) -> Item:
     said = f"States: the motion has no history of {first_of(found.states, SHOWN)}: they keep their initial values"
     wrong = "and what forces make of them is not that of the motion; give the result of a run"
     return Item("states", "amber", f"{said}, {wrong} (green if there are none)")
 
 
-def look_at_missing(subject: Actuated) -> Missing | None:
+def _look_at_missing(subject: Actuated) -> Missing | None:
     """What the efforts do not give; None where they make the whole motion."""
     efforts = subject.efforts
     if efforts.complete:
@@ -213,8 +209,7 @@ def look_at_missing(subject: Actuated) -> Missing | None:
     return Missing(share, time, effort, efforts.missing_at, efforts.limited)
 
 
-def say_missing(found: Missing) -> Item:
-    """How much is missing, where, and why."""
+def _say_missing(found: Missing) -> Item:
     where = f", most of it as {found.effort:.4g} on {found.coordinate}" if found.coordinate else ""
     why = "limits hold the actuators back" if found.limited else "no actuator gives it"
     said = (
@@ -224,14 +219,12 @@ def say_missing(found: Missing) -> Item:
     return Item("missing", "amber", f"{said} (green if none are)", found.share, time=found.time)
 
 
-def look_at_surplus(subject: Actuated) -> Surplus | None:
-    """Actuators more than needed."""
+def _look_at_surplus(subject: Actuated) -> Surplus | None:
     efforts = subject.efforts
     return None if efforts.unique else Surplus(len(efforts.actuators) - efforts.rank)
 
 
-def say_surplus(found: Surplus) -> Item:
-    """That other efforts make the same motion."""
+def _say_surplus(found: Surplus) -> Item:
     several = f"{found.actuators} more actuator{'s' * (found.actuators > 1)} than needed"
     said = f"Efforts: {several}: these are those of least weighted norm, others do as well"
     return Item("unique", "green", f"{said} (said, always green)")
@@ -239,10 +232,10 @@ def say_surplus(found: Surplus) -> Item:
 
 CHECKS = (
     Check("followed", (Positions, Actuated), look_at_drivers, say_drivers, 25, (FRAMES,), "Drivers followed"),
-    Check("replaced", Actuated, look_at_replaced, say_replaced, 26, (FRAMES,), "Drivers replaced"),
-    Check("motion", Actuated, look_at_motion, say_motion, 12, (), "Motion"),
-    Check("open_joints", Actuated, look_at_joints, say_joints, 20, line="violation"),
-    Check("held_states", Actuated, look_at_states, say_states, 38, line="states"),
-    Check("missing", Actuated, look_at_missing, say_missing, 40, (), "Efforts"),
-    Check("surplus", Actuated, look_at_surplus, say_surplus, 42, (), "Efforts", line="unique"),
+    Check("replaced", Actuated, _look_at_replaced, _say_replaced, 26, (FRAMES,), "Drivers replaced"),
+    Check("motion", Actuated, _look_at_motion, _say_motion, 12, (), "Motion"),
+    Check("open_joints", Actuated, _look_at_joints, _say_joints, 20, line="violation"),
+    Check("held_states", Actuated, _look_at_states, _say_states, 38, line="states"),
+    Check("missing", Actuated, _look_at_missing, _say_missing, 40, (), "Efforts"),
+    Check("surplus", Actuated, _look_at_surplus, _say_surplus, 42, (), "Efforts", line="unique"),
 )

@@ -149,7 +149,7 @@ class Damped(Struct):
     longer: bool
 
 
-def look_at_damping(run: Run) -> Damped | None:
+def _look_at_damping(run: Run) -> Damped | None:
     """Energy that the method takes from the motion whatever the step: None where it takes none that counts, or less with finer steps."""
     result, other, longer = run.result, run.finer.result, run.finer.refinement.left > 1.0
     if "energy_error" not in result.variables:
@@ -167,8 +167,7 @@ def look_at_damping(run: Run) -> Damped | None:
     return Damped(lost, lost_other, run.plan.settings.integrator, longer)
 
 
-def say_damping(found: Damped) -> Item:
-    """How much it takes, and what to do."""
+def _say_damping(found: Damped) -> Item:
     steps = "longer" if found.longer else "finer"
     text = (
         f"Damped: {found.method} takes {quantity(found.lost, 'J')} from the motion, and {quantity(found.lost_other, 'J')} with {steps} "
@@ -181,5 +180,5 @@ def say_damping(found: Damped) -> Item:
 
 CHECKS = (
     Check("energy", Motion, look_at_balance, say_balance, 10, (), "Energy", BALANCE),
-    Check("damped", Run, look_at_damping, say_damping, 330, (SECOND_RUN, IMPLICIT), "Damped", blind=DAMPS),
+    Check("damped", Run, _look_at_damping, _say_damping, 330, (SECOND_RUN, IMPLICIT), "Damped", blind=DAMPS),
 )

@@ -47,7 +47,7 @@ class Remark(Struct):
     said: str
 
 
-def look_at_residual(subject: Equilibria) -> Residual:
+def _look_at_residual(subject: Equilibria) -> Residual:
     """Forces left over; those that round-off explains are as good as none."""
     left, result = peak(subject.result, "residual"), subject.result
     values, rounded = result.array("residual"), result.array("residual_round_off")
@@ -55,8 +55,7 @@ def look_at_residual(subject: Equilibria) -> Residual:
     return Residual(left.value, left.time, explained and RESIDUAL.verdict(left.value) != "green")
 
 
-def say_residual(found: Residual) -> Item:
-    """How well the states are balanced."""
+def _say_residual(found: Residual) -> Item:
     said = f"unbalanced forces are at most {number(found.value)} of the largest load, at t = {found.time:.6g} s"
     if not found.rounded:
         return RESIDUAL.item("residual", f"Equilibrium: {said}", found.value, found.time)
@@ -64,8 +63,7 @@ def say_residual(found: Residual) -> Item:
     return replace(RESIDUAL.item("residual", f"Equilibrium: {said}", found.value, found.time), verdict="green")
 
 
-def look_at_stability(subject: Equilibria) -> Stability:
-    """Directions of negative stiffness."""
+def _look_at_stability(subject: Equilibria) -> Stability:
     counts, time = subject.result.array("unstable_directions"), subject.result.time
     if np.any(counts < 0):
         return Stability(False)
@@ -74,8 +72,7 @@ def look_at_stability(subject: Equilibria) -> Stability:
     return Stability(True, len(unstable), len(counts), int(counts.max()), first, not subject.without_potential)
 
 
-def say_stability(found: Stability) -> Item:
-    """Whether a machine that is left alone stays there."""
+def _say_stability(found: Stability) -> Item:
     if not found.known:
         text = (
             "Stability: not determined, because it depends on sampled blocks; a run from this state shows whether the machine "
@@ -99,8 +96,7 @@ def say_stability(found: Stability) -> Item:
     return Item("stability", "amber", text, time=found.time)
 
 
-def look_at_critical(subject: Equilibria) -> Remark | None:
-    """Limit and bifurcation points on the path."""
+def _look_at_critical(subject: Equilibria) -> Remark | None:
     named = [
         f"{kind} at t = {t:.9g} s"
         if between is None
@@ -111,20 +107,19 @@ def look_at_critical(subject: Equilibria) -> Remark | None:
     return Remark("critical", "amber", text) if named else None
 
 
-def look_at_potential(subject: Equilibria) -> Remark | None:
+def _look_at_potential(subject: Equilibria) -> Remark | None:
     """Whether some force has none, as one that follows a body."""
     loads = "some loads have no potential (follower forces, or torques about a fixed axis)"
     text = f"Potential: {loads}: flutter is not examined (green if all loads have one)"
     return Remark("potential", "amber", text) if subject.without_potential else None
 
 
-def look_at_vibrations(subject: Equilibria) -> Remark | None:
-    """Vibrations of no frequency."""
+def _look_at_vibrations(subject: Equilibria) -> Remark | None:
     said = f"{subject.rigid} with frequency zero: rigid-body motions of the machine"
     return Remark("vibrations", "amber", f"Vibrations: {said} (green if none)") if subject.rigid else None
 
 
-def look_at_free(subject: Equilibria) -> Remark | None:
+def _look_at_free(subject: Equilibria) -> Remark | None:
     """Rigid motions of the whole machine, where its vibrations do not tell of them."""
     if not subject.free_motions or subject.rigid:
         return None
@@ -133,23 +128,22 @@ def look_at_free(subject: Equilibria) -> Remark | None:
     return Remark("free", "amber", f"Free: {said} (green if it is held)")
 
 
-def look_at_rest(subject: Equilibria) -> Remark | None:
+def _look_at_rest(subject: Equilibria) -> Remark | None:
     """What makes no force at rest."""
     text = f"At rest: {'; '.join(subject.at_rest)} (said, always green)"
     return Remark("at_rest", "green", text) if subject.at_rest else None
 
 
-def say_remark(found: Remark) -> Item:
-    """The same."""
+def _say_remark(found: Remark) -> Item:
     return Item(found.line, found.verdict, found.said)
 
 
 CHECKS = (
-    Check("residual", Equilibria, look_at_residual, say_residual, 10, (FRAMES,), "Equilibrium", RESIDUAL),
-    Check("stability", Equilibria, look_at_stability, say_stability, 40, (FRAMES,), "Stability"),
-    Check("critical", Equilibria, look_at_critical, say_remark, 42, (), "Critical points"),
-    Check("potential", Equilibria, look_at_potential, say_remark, 44, (), "Potential"),
-    Check("vibrations", Equilibria, look_at_vibrations, say_remark, 46, (), "Vibrations"),
-    Check("free", Equilibria, look_at_free, say_remark, 47, (), "Free as a whole"),
-    Check("at_rest", Equilibria, look_at_rest, say_remark, 48, (), "At rest"),
+    Check("residual", Equilibria, _look_at_residual, _say_residual, 10, (FRAMES,), "Equilibrium", RESIDUAL),
+    Check("stability", Equilibria, _look_at_stability, _say_stability, 40, (FRAMES,), "Stability"),
+    Check("critical", Equilibria, _look_at_critical, _say_remark, 42, (), "Critical points"),
+    Check("potential", Equilibria, _look_at_potential, _say_remark, 44, (), "Potential"),
+    Check("vibrations", Equilibria, _look_at_vibrations, _say_remark, 46, (), "Vibrations"),
+    Check("free", Equilibria, _look_at_free, _say_remark, 47, (), "Free as a whole"),
+    Check("at_rest", Equilibria, _look_at_rest, _say_remark, 48, (), "At rest"),
 )

@@ -39,8 +39,7 @@ BENDING = Threshold(
 )
 
 
-def say_stiffening(found: Bent) -> Item:
-    """How fast a body turns that has no geometric stiffness."""
+def _say_stiffening(found: Bent) -> Item:
     said = (
         f"Stiffening: {found.body} has no geometric stiffness; at t = {found.time:.6g} s the square of its rotational speed is "
         f"{number(found.value)} of that of its lowest frequency; reduce it with `stiffening: true`"
@@ -48,8 +47,7 @@ def say_stiffening(found: Bent) -> Item:
     return STIFFENING.item("stiffening", said, found.value, found.time, found.body)
 
 
-def say_bending(found: Bent) -> Item:
-    """How far a body bends."""
+def _say_bending(found: Bent) -> Item:
     said = (
         f"Bending: {found.body} bends by {number(found.value)} of its size at t = {found.time:.6g} s, but modes describe small "
         f"displacements: use a beam in its place, or several bodies"
@@ -57,7 +55,7 @@ def say_bending(found: Bent) -> Item:
     return BENDING.item("bending", said, found.value, found.time, found.body)
 
 
-def look_for_stiffening(run: Run) -> Bent | None:
+def _look_for_stiffening(run: Run) -> Bent | None:
     """The largest (Ω/ω₁)² of bodies without geometric stiffness: Ω is the angular velocity across the body's length, ω₁ its lowest
     frequency.
 
@@ -80,7 +78,7 @@ def look_for_stiffening(run: Run) -> Bent | None:
     return found
 
 
-def look_for_bending(subject: Run | Equilibria) -> Bent | None:
+def _look_for_bending(subject: Run | Equilibria) -> Bent | None:
     """The largest displacement of a node against the extent of its body."""
     found = [most_bent(subject.result, each) for each in modal_bodies(subject.machine)]
     return max(found, key=lambda each: each.value, default=None)
@@ -146,7 +144,7 @@ class Cost(Struct):
     time: float
 
 
-def look_at_neglected(run: Run) -> Cost | None:
+def _look_at_neglected(run: Run) -> Cost | None:
     """The largest cost of a run; None where nothing is neglected."""
     result = run.result
     found: Cost | None = None
@@ -161,8 +159,7 @@ def look_at_neglected(run: Run) -> Cost | None:
     return found
 
 
-def say_neglected(found: Cost) -> Item:
-    """What a flexible body lacks that moves without some inertia invariants."""
+def _say_neglected(found: Cost) -> Item:
     names = " and ".join(found.names)
     lacks = f"without {names} the mass matrix of {found.body} lacks at most {number(found.share)} for the deflections of this run"
     said = f"Neglected: {lacks}, at t = {found.time:.6g} s"
@@ -200,7 +197,7 @@ class Excited(Struct):
     time: float
 
 
-def look_at_excitation(run: Run) -> Excited | None:
+def _look_at_excitation(run: Run) -> Excited | None:
     """The line of the functions of a run that goes most beyond the modes of a body."""
     if not run.machine.is_flexible or not float(run.result.time[-1]) > 0.0:
         return None
@@ -209,8 +206,7 @@ def look_at_excitation(run: Run) -> Excited | None:
     return max(found, key=lambda each: each.share, default=None)
 
 
-def say_excitation(excited: Excited) -> Item:
-    """What is excited, and what to do."""
+def _say_excitation(excited: Excited) -> Item:
     said = (
         f"Modes: {excited.function} vibrates with {number(excited.frequency)} Hz, above {number(excited.limit)} Hz, where the modes of "
         f"{excited.body} end: at a resonance there it would move the body by about {number(excited.share)} of what it does in all; use "
@@ -267,8 +263,12 @@ def _line(curve: Curve, limit: float, end: float) -> tuple[float, float, float] 
 
 
 CHECKS = (
-    Check("stiffening", Run, look_for_stiffening, say_stiffening, 260, (STEPS,), "Stiffening", STIFFENING, quiet=True),
-    Check("bending", (Run, Equilibria), look_for_bending, say_bending, 270, (FRAMES,), "Bending", BENDING, quiet=True),
-    Check("neglected", Run, look_at_neglected, say_neglected, 100, (), "Neglected", NEGLECTED),
-    Check("excitation", Run, look_at_excitation, say_excitation, 304, (STEPS,), "Modes", line="modes", quiet=True),
+    Check(
+        "stiffening", Run, _look_for_stiffening, _say_stiffening, 260, (STEPS,), "Stiffening", STIFFENING, quiet=True
+    ),
+    Check(
+        "bending", (Run, Equilibria), _look_for_bending, _say_bending, 270, (FRAMES,), "Bending", BENDING, quiet=True
+    ),
+    Check("neglected", Run, _look_at_neglected, _say_neglected, 100, (), "Neglected", NEGLECTED),
+    Check("excitation", Run, _look_at_excitation, _say_excitation, 304, (STEPS,), "Modes", line="modes", quiet=True),
 )

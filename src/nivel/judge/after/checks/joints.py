@@ -18,8 +18,7 @@ class Freedom(Struct):
     circuit: bool = False
 
 
-def look_at_freedom(subject: Run | Equilibria) -> Freedom:
-    """As the machine is built."""
+def _look_at_freedom(subject: Run | Equilibria) -> Freedom:
     prepared = subject.prepared
     redundancy, drivers = prepared.redundancy, prepared.drivers
     if not prepared.motion.system.bodies:
@@ -30,13 +29,11 @@ def look_at_freedom(subject: Run | Equilibria) -> Freedom:
     return Freedom(redundancy.degrees_of_freedom, redundancy.position_freedoms, modes, drivers)
 
 
-def look_at_driven(subject: Positions) -> Freedom:
-    """Drivers prescribe all."""
+def _look_at_driven(subject: Positions) -> Freedom:
     return Freedom(0, drivers=subject.prepared.drivers)
 
 
-def say_freedom(found: Freedom) -> Item | None:
-    """How many there are."""
+def _say_freedom(found: Freedom) -> Item | None:
     count = found.velocities
     if count is None:
         return None
@@ -62,14 +59,12 @@ class Redundancy(Struct):
     joints: tuple[str, ...] = ()
 
 
-def look_at_redundancy(subject: Run | Equilibria | Positions) -> Redundancy:
-    """As the machine was assembled."""
+def _look_at_redundancy(subject: Run | Equilibria | Positions) -> Redundancy:
     redundancy = subject.prepared.redundancy
     return Redundancy(tuple(redundancy.redundant_rows), tuple(redundancy.non_unique_joints))
 
 
-def say_redundancy(found: Redundancy) -> Item:
-    """Constraints that repeat others."""
+def _say_redundancy(found: Redundancy) -> Item:
     if not found.rows:
         said = "Redundancy: no redundant constraints, every reaction is unique (green if none)"
         return Item("redundancy", "green", said)
@@ -162,8 +157,7 @@ def say_rates(found: Violation) -> Item | None:
     return RATES.item("rate_violation", f"{said}, {where}", fraction, found.time, found.row)
 
 
-def say_velocities(found: Violation) -> Item:
-    """Whether the velocities of kinematics fit the joints."""
+def _say_velocities(found: Violation) -> Item:
     rate = found.value * (1.0 if found.units == "m/s" else found.scales.size) / found.scales.speed
     said = f"Velocities: rates of constraints are violated by at most {number(rate)} of the largest speed"
     verdict: Verdict = "green" if rate <= GREEN else "amber" if rate <= AMBER else "red"
@@ -172,11 +166,11 @@ def say_velocities(found: Violation) -> Item:
 
 CHECKS = (
     Check("scales", Recorded, lambda subject: subject.scales, lambda _: None, 0),
-    Check("degrees_of_freedom", (Run, Equilibria), look_at_freedom, say_freedom, 50, (), "Freedom"),
-    Check("degrees_of_freedom", Positions, look_at_driven, lambda _: None, 50),
-    Check("redundancy", (Run, Positions), look_at_redundancy, say_redundancy, 60, (), "Redundancy", apart=True),
-    Check("redundancy", Equilibria, look_at_redundancy, say_redundancy, 60, (), "Redundancy"),
+    Check("degrees_of_freedom", (Run, Equilibria), _look_at_freedom, _say_freedom, 50, (), "Freedom"),
+    Check("degrees_of_freedom", Positions, _look_at_driven, lambda _: None, 50),
+    Check("redundancy", (Run, Positions), _look_at_redundancy, _say_redundancy, 60, (), "Redundancy", apart=True),
+    Check("redundancy", Equilibria, _look_at_redundancy, _say_redundancy, 60, (), "Redundancy"),
     Check("violation", Recorded, look_at_opening, say_opening, 20, (), "Joints closed", OPENING),
     Check("rate_violation", Motion, look_at_rates, say_rates, 30, (), "Joint rates", RATES),
-    Check("rate_violation", Positions, look_at_rates, say_velocities, 30, (), VELOCITIES, line="velocities"),
+    Check("rate_violation", Positions, look_at_rates, _say_velocities, 30, (), VELOCITIES, line="velocities"),
 )

@@ -20,13 +20,12 @@ class Steadiness(Struct):
     reasons: tuple[str, ...]
 
 
-def look_at_steadiness(subject: Linearisation) -> Steadiness:
+def _look_at_steadiness(subject: Linearisation) -> Steadiness:
     """As the equations are at later moments of the motion."""
     return Steadiness(subject.moves, subject.unsteady)
 
 
-def say_steadiness(found: Steadiness) -> Item:
-    """Whether there are eigenvalues to read."""
+def _say_steadiness(found: Steadiness) -> Item:
     if found.reasons:
         return Item("steady", "amber", f"Steady: {'; '.join(found.reasons)} (green if at rest, or if A stays the same)")
     how = "A is the same at two later moments of the motion" if found.moves else "the machine rests in equilibrium"
@@ -45,7 +44,7 @@ class Hidden(Struct):
     known: float
 
 
-def look_for_growth(subject: Linearisation) -> Hidden | None:
+def _look_for_growth(subject: Linearisation) -> Hidden | None:
     """The first mode whose growth may be round-off."""
     values, known = subject.eigenvalues, subject.round_off
     size = np.abs(values)
@@ -57,8 +56,7 @@ def look_for_growth(subject: Linearisation) -> Hidden | None:
     return Hidden(int(np.sum(values[: k + 1].imag >= 0.0)), float(values[k].real), float(known[k]))
 
 
-def say_growth(found: Hidden) -> Item:
-    """That stability is not known."""
+def _say_growth(found: Hidden) -> Item:
     said = (
         f"Growth: mode {found.mode} grows by {number(found.rate)}/s, which may be round-off of faster motions: it is known to "
         f"{number(found.known)}/s; make what is far stiffer than the rest rigid (green without such modes)"
@@ -76,14 +74,13 @@ class Kinked(Struct):
     jumps: bool
 
 
-def look_at_kinks(subject: Linearisation) -> Kinked | None:
+def _look_at_kinks(subject: Linearisation) -> Kinked | None:
     """The kinks; None where the equations are smooth."""
     kinks = subject.kinks
     return Kinked(tuple(map(str, kinks)), any(each.jumps for each in kinks)) if kinks else None
 
 
-def say_kinks(found: Kinked) -> Item:
-    """Both slopes of each."""
+def _say_kinks(found: Kinked) -> Item:
     some = first_of(found.kinks, SHOWN, "; ")
     if found.jumps:
         said = "the equations jump at this state, so that there are no linear ones whose eigenvalues describe a motion"
@@ -122,7 +119,7 @@ class BeyondModes(Struct):
     all: bool
 
 
-def look_at_elements(subject: Linearisation) -> WrongByElements | None:
+def _look_at_elements(subject: Linearisation) -> WrongByElements | None:
     """How far the vibrations are from those with other elements, each against that of the same rank."""
     others = subject.others
     assert others is not None
@@ -150,7 +147,7 @@ def vibrating(eigenvalues: NDArray[np.complex128]) -> NDArray[np.intp]:
     return np.flatnonzero(eigenvalues.imag > 0.0)
 
 
-def say_elements(found: WrongByElements) -> Item:
+def _say_elements(found: WrongByElements) -> Item:
     """From which vibration on they are wrong; the colour is that of the slowest."""
     names = ", ".join(found.beams)
     if found.why:
@@ -169,7 +166,7 @@ def say_elements(found: WrongByElements) -> Item:
     return MESH.item("mesh", said, found.slowest)
 
 
-def look_at_modes(subject: Linearisation) -> list[BeyondModes]:
+def _look_at_modes(subject: Linearisation) -> list[BeyondModes]:
     """Flexible bodies that lack modes of the frequencies of these vibrations."""
     machine, values = subject.machine, np.abs(subject.eigenvalues[vibrating(subject.eigenvalues)])
     if not machine.is_flexible or not len(values):
@@ -184,7 +181,7 @@ def look_at_modes(subject: Linearisation) -> list[BeyondModes]:
     return out
 
 
-def say_modes(found: BeyondModes) -> Item:
+def _say_modes(found: BeyondModes) -> Item:
     """Above which frequency vibrations are not those of the whole body; amber if that is all of them."""
     said = (
         f"Modes: {found.body} leaves out modes from {number(found.left)} Hz on, so vibrations above {number(found.limit)} Hz are not those "
@@ -194,9 +191,9 @@ def say_modes(found: BeyondModes) -> Item:
 
 
 CHECKS = (
-    Check("steady", Linearisation, look_at_steadiness, say_steadiness, 10, (), "Steady"),
-    Check("growth", Linearisation, look_for_growth, say_growth, 11, (), "Growth"),
-    Check("kinks", Linearisation, look_at_kinks, say_kinks, 20, (), "Kinks"),
-    Check("elements_of_vibrations", Linearisation, look_at_elements, say_elements, 292, (OTHERS,), line="mesh"),
-    Check("modes_of_vibrations", Linearisation, look_at_modes, say_modes, 304, line="modes"),
+    Check("steady", Linearisation, _look_at_steadiness, _say_steadiness, 10, (), "Steady"),
+    Check("growth", Linearisation, _look_for_growth, _say_growth, 11, (), "Growth"),
+    Check("kinks", Linearisation, _look_at_kinks, _say_kinks, 20, (), "Kinks"),
+    Check("elements_of_vibrations", Linearisation, _look_at_elements, _say_elements, 292, (OTHERS,), line="mesh"),
+    Check("modes_of_vibrations", Linearisation, _look_at_modes, _say_modes, 304, line="modes"),
 )

@@ -55,14 +55,13 @@ SAMPLING = Threshold(
 )
 
 
-def look_at_loads(run: Run) -> list[Unseen]:
+def _look_at_loads(run: Run) -> list[Unseen]:
     """What is missed by much, or by more than a headline that two runs agree on allows."""
     agreed = _agreed(run)
     return _most([each for each in _unseen_by(run) if _is_missed(each, agreed)])
 
 
-def say_loads(found: Unseen) -> Item:
-    """What is missed of a load, and the step that does not miss it."""
+def _say_loads(found: Unseen) -> Item:
     by = "" if found.of == "time" else f" along {found.of}"
     said = f"the steps miss {number(min(found.share, 1.0))} of {found.name} at t = {found.time:.6g} s, where it changes{by} within"
     finer = number(min(found.scale, found.step) / 10.0)
@@ -76,14 +75,12 @@ def say_loads(found: Unseen) -> Item:
     return Item("loads", "amber", text, found.share, row=found.name, time=found.time)
 
 
-def look_between_samples(run: Run) -> list[Unseen]:
-    """Sampled functions that no sample shows."""
+def _look_between_samples(run: Run) -> list[Unseen]:
     found = between_samples(run.machine, float(run.result.time[-1]))
     return _most([each for each in found if not each.share < SAMPLING.green])
 
 
-def say_between_samples(found: Unseen) -> Item:
-    """What a function does between two samples."""
+def _say_between_samples(found: Unseen) -> Item:
     said = f"after t = {found.time:.6g} s {found.name} changes by {number(found.share)} of its range and back between two samples"
     advice = f"{number(found.step)} s apart, within {number(found.scale)} s; use a shorter sample_time if the block shall see it"
     return SAMPLING.item("sampling", f"Sampling: {said} {advice}", found.share, found.time, found.name)
@@ -168,7 +165,7 @@ class Passed(Struct):
     count: int
 
 
-def look_at_events(run: Run) -> list[Passed]:
+def _look_at_events(run: Run) -> list[Passed]:
     """The first unseen pass of each event."""
     steps = steps_of_run(run) if run.machine.events else None
     return [] if steps is None else list(_unseen(run, steps))
@@ -224,8 +221,7 @@ def _unmatched(when: Array, came: list[float], near: float) -> list[int]:
     return out
 
 
-def say_event(found: Passed) -> Item:
-    """Which event was passed, and the step that sees it."""
+def _say_event(found: Passed) -> Item:
     more = f", and so {found.count - 1} times more" if found.count > 1 else ""
     said = f"{found.event} passes zero and back near t = {found.time:.6g} s within one step of {number(found.step)} s{more}"
     text = f"Events: {said}; the run has not seen it: use a shorter step, or a method that chooses its steps"
@@ -245,7 +241,7 @@ class Unexamined(Struct):
     hurried: tuple[str, ...] = ()
 
 
-def look_for_unexamined(run: Run) -> Unexamined | None:
+def _look_for_unexamined(run: Run) -> Unexamined | None:
     """The functions of which *Loads* knows too little."""
     every = list(varying(run.machine))
     hidden = tuple(each.name for each in every if path_of(each, run.machine, run.result) is None)
@@ -254,7 +250,7 @@ def look_for_unexamined(run: Run) -> Unexamined | None:
     return found if hidden or laws or found.contacts or found.hurried else None
 
 
-def say_unexamined(found: Unexamined) -> Item:
+def _say_unexamined(found: Unexamined) -> Item:
     """What was not looked at, by name. The line is green: nothing is known against the result."""
     said = []
     if found.functions:
@@ -274,7 +270,7 @@ def say_unexamined(found: Unexamined) -> Item:
     return Item("unexamined", "green", f"Not examined: {'; '.join(said)}")
 
 
-def look_for_pulses(run: Run) -> Pulse | None:
+def _look_for_pulses(run: Run) -> Pulse | None:
     """The function that does most between frames; noted, as numbers that are made from frames know nothing of it."""
     found = largest_pulse(run.machine, run.result)
     if found is not None:
@@ -282,16 +278,20 @@ def look_for_pulses(run: Run) -> Pulse | None:
     return found
 
 
-def say_pulse(found: Pulse) -> Item:
+def _say_pulse(found: Pulse) -> Item:
     """The line is green: the stored numbers are right."""
     said = f"Not examined: peaks, work and cycles: {found.told}; a shorter output_interval shows it"
     return Item("unexamined", "green", said, row=found.name)
 
 
 CHECKS = (
-    Check("loads", Run, look_at_loads, say_loads, 200, (STEPS,), "Loads", LOADS, "their steps miss {row}", quiet=True),
-    Check("sampling", Run, look_between_samples, say_between_samples, 210, (STEPS,), "Sampling", SAMPLING, quiet=True),
-    Check("events", (Run,), look_at_events, say_event, 205, (STEPS,), "Events", blind="both pass {row} unseen"),
-    Check("pulses", (Run,), look_for_pulses, say_pulse, 913, line="unexamined"),
-    Check("unexamined", (Run,), look_for_unexamined, say_unexamined, 910, (STEPS,), "Not examined"),
+    Check(
+        "loads", Run, _look_at_loads, _say_loads, 200, (STEPS,), "Loads", LOADS, "their steps miss {row}", quiet=True
+    ),
+    Check(
+        "sampling", Run, _look_between_samples, _say_between_samples, 210, (STEPS,), "Sampling", SAMPLING, quiet=True
+    ),
+    Check("events", (Run,), _look_at_events, _say_event, 205, (STEPS,), "Events", blind="both pass {row} unseen"),
+    Check("pulses", (Run,), _look_for_pulses, _say_pulse, 913, line="unexamined"),
+    Check("unexamined", (Run,), _look_for_unexamined, _say_unexamined, 910, (STEPS,), "Not examined"),
 )

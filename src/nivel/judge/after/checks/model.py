@@ -25,12 +25,11 @@ class Loss(Struct):
     part: str
 
 
-def look_at_losses(subject: Run | Equilibria | Positions) -> list[Loss]:
-    """All parts that the machine file names."""
+def _look_at_losses(subject: Run | Equilibria | Positions) -> list[Loss]:
     return [Loss(part) for part in subject.machine.left_out]
 
 
-def say_loss(loss: Loss) -> Item:
+def _say_loss(loss: Loss) -> Item:
     """The part, and what ends the line."""
     advice = "where it is written as elements of the machine, or has no part in this motion, take it out of `left_out`"
     return Item("losses", "amber", f"Left out of the model: {loss.part}; {advice}", row=loss.part)
@@ -46,7 +45,7 @@ class Still(Struct):
     angle: float
 
 
-def look_for_rest(run: Run) -> Still | None:
+def _look_for_rest(run: Run) -> Still | None:
     """The largest motion of any body, where it is none."""
     result, size = run.result, run.scales.size
     if len(result.time) < 2 or not {"position", "orientation"} <= result.variables.keys() or not run.machine.bodies:
@@ -58,7 +57,7 @@ def look_for_rest(run: Run) -> Still | None:
     return Still(distance, angle) if distance <= AT_REST * size and angle <= AT_REST else None
 
 
-def say_rest(found: Still) -> Item:
+def _say_rest(found: Still) -> Item:
     """That nothing moved. It may be what was asked for."""
     text = (
         f"Still: nothing moved by more than {number(found.distance)} m or turned by more than {number(found.angle)} rad"
@@ -73,13 +72,13 @@ class Missed(Struct):
     stops: bool
 
 
-def look_for_missed(run: Run) -> list[Missed]:
+def _look_for_missed(run: Run) -> list[Missed]:
     """All events of the machine that the run has not met, where it reached an end."""
     came = {event.name for event in run.finished.events}
     return [Missed(event.name, event.stop) for event in run.machine.events if event.name not in came]
 
 
-def say_missed(found: Missed) -> Item:
+def _say_missed(found: Missed) -> Item:
     """That it never came. It may be what was hoped for."""
     text = f"Missed events: {found.name} never came{', so the run went on to its duration' if found.stops else ''} (said, always green)"
     return Item("missed_events", "green", text, row=found.name)
@@ -104,7 +103,7 @@ class Unusual(Struct):
     time: float | None = None
 
 
-def look_for_unusual(subject: Run | Equilibria | Positions) -> list[Unusual]:
+def _look_for_unusual(subject: Run | Equilibria | Positions) -> list[Unusual]:
     """What is farthest beyond the usual."""
     found = [Unusual(remark.place, str(remark.fault), remark.number) for remark in remarks(subject.machine)]
     found += [
@@ -115,8 +114,7 @@ def look_for_unusual(subject: Run | Equilibria | Positions) -> list[Unusual]:
     return sorted(found, key=lambda each: -each.share)[:SHOWN]
 
 
-def say_unusual(found: Unusual) -> Item:
-    """The number, and what is usual."""
+def _say_unusual(found: Unusual) -> Item:
     text = f"Plausibility: {found.said}"
     if math.isinf(found.share):
         return Item("plausible", "amber", text, row=found.name)
@@ -214,13 +212,13 @@ class Changed(Struct):
     share: float
 
 
-def look_for_moves(subject: Run | Linearisation) -> Moved | None:
+def _look_for_moves(subject: Run | Linearisation) -> Moved | None:
     """The farthest move to close joints; start values of joints move bodies too, as was asked for, and so do drivers and couplings."""
     moved = _farthest(subject)
     return moved if moved is not None and not _is_of_law(subject, moved) else None
 
 
-def look_for_laws(subject: Run | Linearisation) -> Moved | None:
+def _look_for_laws(subject: Run | Linearisation) -> Moved | None:
     """The farthest move to where the law of a driver or a coupling begins, where it is not small."""
     moved = _farthest(subject)
     return moved if moved is not None and _is_of_law(subject, moved) and not moved.share < MOVED.green else None
@@ -240,21 +238,20 @@ def _is_of_law(subject: Run | Linearisation, moved: Moved) -> bool:
     return moved.row.partition(".")[0] in {law.name for law in laws}
 
 
-def say_moves(found: Moved) -> Item:
-    """How far the body was moved, and why."""
+def _say_moves(found: Moved) -> Item:
     amount = f"{number(found.distance)} m and {number(found.angle)} rad"
     why = f"to close {found.row}, which was open by {number(found.gap)} as given"
     return MOVED.item("start", f"Start: {found.name} was moved by {amount} {why}", found.share, 0.0, found.name)
 
 
-def say_law(found: Moved) -> Item:
+def _say_law(found: Moved) -> Item:
     """How far the body was moved, and by what. It is what was asked for."""
     amount = f"{number(found.distance)} m and {number(found.angle)} rad"
     text = f"Start: {found.name} was moved by {amount} to where {found.row} begins (said, always green)"
     return Item("start", "green", text, row=found.name, time=0.0)
 
 
-def look_at_equilibrium(run: Run) -> Settled | None:
+def _look_at_equilibrium(run: Run) -> Settled | None:
     """The farthest way to the equilibrium from which the run starts; None where it starts from no equilibrium."""
     result, size = run.result, run.scales.size
     if run.machine.simulation.start != "equilibrium" or "position" not in result.variables:
@@ -271,14 +268,13 @@ def look_at_equilibrium(run: Run) -> Settled | None:
     return max(found, key=lambda each: each.share, default=None)
 
 
-def say_equilibrium(found: Settled) -> Item:
-    """How far the equilibrium is from what was given."""
+def _say_equilibrium(found: Settled) -> Item:
     amount = f"{number(found.distance)} m and {number(found.angle)} rad"
     said = f"in the equilibrium at the start {found.name} is {amount} from where it was given: the machine may have snapped through"
     return SNAPPED.item("start", f"Start: {said}", found.share, 0.0, found.name)
 
 
-def look_for_changes(subject: Run | Linearisation) -> Changed | None:
+def _look_for_changes(subject: Run | Linearisation) -> Changed | None:
     """The largest change of a velocity that stands in the machine file."""
     given = {body.name: _speeds(body) for body in subject.machine.bodies}
     found = []
@@ -290,8 +286,7 @@ def look_for_changes(subject: Run | Linearisation) -> Changed | None:
     return max(found, key=lambda each: each.share, default=None)
 
 
-def say_changes(found: Changed) -> Item:
-    """What was changed of the velocity that was given."""
+def _say_changes(found: Changed) -> Item:
     amount = f"{number(found.velocity)} m/s and {number(found.angular_velocity)} rad/s"
     said = f"the given velocity of {found.name} was changed by {amount}, {number(found.share)} of it, to fit the joints"
     return MOVED.item("start", f"Start: {said}", found.share, 0.0, found.name)
@@ -307,12 +302,12 @@ STARTED, PLACED = (Run, Linearisation), (Run, Equilibria, Positions)
 
 
 CHECKS = (
-    Check("losses", PLACED, look_at_losses, say_loss, 915, (), "Left out of the model"),
-    Check("missed_events", Run, look_for_missed, say_missed, 916, (FRAMES,), "Missed events"),
-    Check("still", Run, look_for_rest, say_rest, 917, (FRAMES,), "Still"),
-    Check("plausible", PLACED, look_for_unusual, say_unusual, 920, (), "Plausibility", UNUSUAL, quiet=True),
-    Check("start_equilibrium", Run, look_at_equilibrium, say_equilibrium, 119, (FRAMES,), line="start", quiet=True),
-    Check("start_moved", STARTED, look_for_moves, say_moves, 120, (), "Start", MOVED, line="start", quiet=True),
-    Check("start_law", STARTED, look_for_laws, say_law, 122, line="start"),
-    Check("start_velocity", STARTED, look_for_changes, say_changes, 121, line="start", quiet=True),
+    Check("losses", PLACED, _look_at_losses, _say_loss, 915, (), "Left out of the model"),
+    Check("missed_events", Run, _look_for_missed, _say_missed, 916, (FRAMES,), "Missed events"),
+    Check("still", Run, _look_for_rest, _say_rest, 917, (FRAMES,), "Still"),
+    Check("plausible", PLACED, _look_for_unusual, _say_unusual, 920, (), "Plausibility", UNUSUAL, quiet=True),
+    Check("start_equilibrium", Run, _look_at_equilibrium, _say_equilibrium, 119, (FRAMES,), line="start", quiet=True),
+    Check("start_moved", STARTED, _look_for_moves, _say_moves, 120, (), "Start", MOVED, line="start", quiet=True),
+    Check("start_law", STARTED, _look_for_laws, _say_law, 122, line="start"),
+    Check("start_velocity", STARTED, _look_for_changes, _say_changes, 121, line="start", quiet=True),
 )

@@ -107,8 +107,7 @@ def say(found: Lacking) -> Item:
     return ENERGY_LEFT_OUT.item("modes", said, found.share, found.time, found.body)
 
 
-def say_unsure(found: Unsure) -> Item:
-    """Which frequency modes that are left out would lower, and by how much."""
+def _say_unsure(found: Unsure) -> Item:
     said = (
         f"Modes: the frequency of vibration {found.number}, {number(found.frequency)} Hz, is too high by about {number(found.share)} of "
         f"it, because {found.body} leaves out modes from {number(found.lowest)} Hz on; use more `modes`"
@@ -116,8 +115,7 @@ def say_unsure(found: Unsure) -> Item:
     return ENERGY_LEFT_OUT.item("modes", said, found.share, None, found.body)
 
 
-def say_mesh(found: Bent) -> Item:
-    """What the mesh of a body makes wrong."""
+def _say_mesh(found: Bent) -> Item:
     said = (
         f"Mesh: the finite elements of {found.body} have an error of {number(found.value)} of its strain energy at t = {found.time:.6g} s; "
         f"reduce it with smaller elements"
@@ -179,7 +177,7 @@ def look(subject: Run | Equilibria) -> Lacking | None:
     return max((each for each in found if each is not None), key=lambda each: each.share, default=None)
 
 
-def look_at_mesh(subject: Run | Equilibria) -> Bent | None:
+def _look_at_mesh(subject: Run | Equilibria) -> Bent | None:
     """The largest energy that meshes of bodies make wrong, as a share of their own."""
     found, result = None, subject.result
     frames = slice(None, None, max(1, len(result.time) // MOST_FRAMES))
@@ -227,7 +225,7 @@ def _load(basis: Basis, motion: _Motion, known: Array) -> Array:
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")
-def look_at_vibrations(subject: Equilibria) -> Unsure | None:
+def _look_at_vibrations(subject: Equilibria) -> Unsure | None:
     """The vibration about the last equilibrium whose frequency the modes that bodies leave out would lower most.
 
     Of unit modal mass a mode of the frequency ω_k that bears the load f in a vibration of ω takes f²/(ω_k² - ω²) of ω² (Rayleigh).
@@ -378,7 +376,7 @@ MOVING: Final = Need(
 
 
 CHECKS = (
-    Check("body_mesh", (Run, Equilibria), look_at_mesh, say_mesh, 290, (MOVING,), line="mesh", quiet=True),
+    Check("body_mesh", (Run, Equilibria), _look_at_mesh, _say_mesh, 290, (MOVING,), line="mesh", quiet=True),
     Check("modes", (Run, Equilibria), look, say, 300, (MOVING,), "Modes", ENERGY_LEFT_OUT, quiet=True),
-    Check("vibration_modes", Equilibria, look_at_vibrations, say_unsure, 302, (FRAMES,), line="modes", quiet=True),
+    Check("vibration_modes", Equilibria, _look_at_vibrations, _say_unsure, 302, (FRAMES,), line="modes", quiet=True),
 )

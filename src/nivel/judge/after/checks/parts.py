@@ -43,7 +43,7 @@ class OwnError(Struct):
         return self.error / self.extent
 
 
-def look_at_motion(run: Run) -> OwnError | None:
+def _look_at_motion(run: Run) -> OwnError | None:
     """Errors of bodies against the extent of their paths and against what they turn by, up to a radian; of joint coordinates against
     their ranges; the largest share."""
     result, estimate = run.result, run.estimate
@@ -79,8 +79,7 @@ def look_at_motion(run: Run) -> OwnError | None:
     return max(finite, key=lambda each: each.share, default=None)
 
 
-def say_motion(found: OwnError) -> Item:
-    """Its error against its motion."""
+def _say_motion(found: OwnError) -> Item:
     its = f"{number(found.share)} of its own motion over {number(found.extent)} {found.units}"
     said = f"Parts: {found.name} is off by {number(found.error)} {found.units}, {its}"
     return OWN_MOTION.item("parts", said, found.share, row=found.name)
@@ -116,7 +115,7 @@ class PartError(Struct):
         return self.error / self.energy
 
 
-def look_at_energy(run: Run) -> PartError | None:
+def _look_at_energy(run: Run) -> PartError | None:
     """The separate part with the largest share; parts with most of the energy are judged by that of the whole machine."""
     result, slowest = run.result, speed_of_rest(run.result, run.scales.size)
     whole = largest_mechanical_energy(result)
@@ -124,8 +123,7 @@ def look_at_energy(run: Run) -> PartError | None:
     return max((each for each in found if each is not None), key=lambda each: each.share, default=None)
 
 
-def say_energy(found: PartError) -> Item:
-    """The error of a part against its own energy."""
+def _say_energy(found: PartError) -> Item:
     its = f"{number(found.share)} of its largest energy {quantity(found.energy, 'J')}"
     joined = f"the energy of {found.body} and the bodies joined to it has an error of {its}, at t = {found.time:.6g} s"
     return BALANCE.item("parts", f"Parts: {joined}", found.share, found.time, found.body)
@@ -233,6 +231,6 @@ def _energies(result: Readable, part: Part, frames: slice) -> tuple[Array, Array
 
 
 CHECKS = (
-    Check("parts", Run, look_at_motion, say_motion, 320, (ESTIMATE,), "Parts", OWN_MOTION, quiet=True),
-    Check("part_energy", Run, look_at_energy, say_energy, 310, (STEPS,), line="parts", quiet=True),
+    Check("parts", Run, _look_at_motion, _say_motion, 320, (ESTIMATE,), "Parts", OWN_MOTION, quiet=True),
+    Check("part_energy", Run, _look_at_energy, _say_energy, 310, (STEPS,), line="parts", quiet=True),
 )

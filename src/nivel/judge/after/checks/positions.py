@@ -35,25 +35,22 @@ class Histories(Struct):
     states: tuple[str, ...]
 
 
-def look_at_branches(subject: Positions) -> Branches | None:
+def _look_at_branches(subject: Positions) -> Branches | None:
     """The singular position that it came nearest to; None of machines without constraints."""
     near = subject.near
     return Branches(near.least, near.time, near.joints, subject.passed) if near is not None else None
 
 
-def look_at_steps(subject: Positions) -> Shortened | None:
-    """Steps that were shortened."""
+def _look_at_steps(subject: Positions) -> Shortened | None:
     return Shortened(subject.halved) if subject.halved else None
 
 
-def say_steps(found: Shortened) -> Item:
-    """How many steps were shortened."""
+def _say_steps(found: Shortened) -> Item:
     said = f"{found.count} were shortened, because the machine moves fast or comes near a singular position"
     return Item("steps", "green", f"Steps: {said} (said, always green)")
 
 
-def say_branches(found: Branches) -> Item:
-    """Whether the positions are the only ones to which the drivers lead."""
+def _say_branches(found: Branches) -> Item:
     among = f" (among {', '.join(found.joints[:SHOWN])})" if found.joints else ""
     if found.passed:
         some = first_of([f"{a:.6g} and {b:.6g} s" for a, b in found.passed], SHOWN, more="times more")
@@ -71,14 +68,12 @@ def say_branches(found: Branches) -> Item:
     return Item("branches", "green", said, time=time)
 
 
-def look_at_histories(subject: Positions) -> Histories | None:
-    """States that kinematics does not compute."""
+def _look_at_histories(subject: Positions) -> Histories | None:
     states = tuple(fact.name for fact in subject.prepared.motion.system.states if not fact.integral)
     return Histories(states) if states else None
 
 
-def say_histories(found: Histories) -> Item:
-    """What depends on them is wrong."""
+def _say_histories(found: Histories) -> Item:
     said = f"States: {first_of(found.states, SHOWN)} have a history, which kinematics does not compute: they keep their initial values"
     wrong = "efforts and reactions that depend on them are wrong"
     return Item("states", "amber", f"{said}, and {wrong} (green if there are none)")
@@ -145,7 +140,7 @@ class Whole(Struct):
     positions: int
 
 
-def look_at_places(subject: Led) -> Reached:
+def _look_at_places(subject: Led) -> Reached:
     """Errors of the places, evaluated at the postures that were found."""
     path = subject.path
     error, there = path.error, path.reached
@@ -154,8 +149,7 @@ def look_at_places(subject: Led) -> Reached:
     return Reached(len(there), int(there.sum()), position, orientation, missed)
 
 
-def say_places(found: Reached) -> Item:
-    """How many are reached, and how nearly."""
+def _say_places(found: Reached) -> Item:
     near = f"to {number(found.position)} m and {number(found.orientation)} rad"
     if found.reached == found.count:
         return Item("places", "green", f"Places: all {found.count} are reached {near} (green if all are)")
@@ -164,7 +158,7 @@ def say_places(found: Reached) -> Item:
     return Item("places", "amber" if found.reached else "red", f"{said} (green if all are reached, red if none is)")
 
 
-def look_at_postures(subject: Led) -> Postures:
+def _look_at_postures(subject: Led) -> Postures:
     """Postures that do not follow from the one before, and singular ones."""
     path, size = subject.path, subject.path.smallest_singular_value
     anew = np.flatnonzero((path.starts > 1) & path.reached & (np.arange(len(size)) > 0))
@@ -173,8 +167,7 @@ def look_at_postures(subject: Led) -> Postures:
     return Postures(tuple(map(float, path.time[anew])), tuple(map(float, path.time[near])))
 
 
-def say_postures(found: Postures) -> Item:
-    """Whether the coordinates go on without jumps."""
+def _say_postures(found: Postures) -> Item:
     said = []
     if found.jumps:
         said.append(
@@ -194,7 +187,7 @@ def _listed(times: tuple[float, ...]) -> str:
     return first_of([f"{each:.6g}" for each in times], SHOWN)
 
 
-def look_at_ways(subject: Reach) -> Ways:
+def _look_at_ways(subject: Reach) -> Ways:
     """The kinematic analyses of both ways, as far as positions go: that they end is what was asked for, at a singular position, near which
     speeds are beyond all bounds."""
     items = [item for trust in subject.ways for item in trust.items if item.name in OF_POSITIONS]
@@ -208,13 +201,12 @@ def look_at_ways(subject: Reach) -> Ways:
     return Ways("green", "")
 
 
-def say_ways(found: Ways) -> Item:
-    """Whether the joints were closed on both ways, and the driver followed."""
+def _say_ways(found: Ways) -> Item:
     told = found.text or "joints stay closed, and the coordinate follows its driver"
     return Item("ways", found.verdict, f"Ways: {told} (the worst line of both)")
 
 
-def look_at_ends(subject: Reach) -> Ends | None:
+def _look_at_ends(subject: Reach) -> Ends | None:
     """Ends at which the machine jams, against the turning points of the curve of positions."""
     span = max(subject.range.high - subject.range.low, 1e-300)
     found = subject.range
@@ -225,31 +217,27 @@ def look_at_ends(subject: Reach) -> Ends | None:
     return Ends(max(aside), jams[int(np.argmax(aside))], found.unit)
 
 
-def say_ends(found: Ends) -> Item:
-    """How near the ends are to the turning points."""
+def _say_ends(found: Ends) -> Item:
     away = f"{number(found.difference)} of the range away from turning points of the curve of positions"
     said = f"Ends: {away}, at {found.end:.6g} {found.unit}"
     return ENDS.item("ends", said, found.difference)
 
 
-def look_at_opening(subject: Curve) -> Opening:
-    """The joints at all places."""
+def _look_at_opening(subject: Curve) -> Opening:
     return Opening(subject.opening)
 
 
-def say_opening(found: Opening) -> Item:
-    """How far they are open."""
+def _say_opening(found: Opening) -> Item:
     return OPENING.item("violation", f"Joints: open by at most {number(found.share)} of their sizes", found.share)
 
 
-def look_at_curve(subject: Curve) -> Whole:
+def _look_at_curve(subject: Curve) -> Whole:
     """Whether it is all there is."""
     curve = subject.curve
     return Whole(curve.closed, len(curve.crossed), len(curve.arc))
 
 
-def say_curve(found: Whole) -> Item:
-    """The same."""
+def _say_curve(found: Whole) -> Item:
     rule = "green if it comes back to its begin and no other crosses it"
     if not found.closed:
         text = f"Curve: it does not come back within {found.positions} positions: turning points beyond are not known ({rule})"
@@ -261,13 +249,13 @@ def say_curve(found: Whole) -> Item:
 
 
 CHECKS = (
-    Check("shortened_steps", Positions, look_at_steps, say_steps, 34, line="steps"),
-    Check("branches", Positions, look_at_branches, say_branches, 36, (), "Branches of positions"),
-    Check("histories", Positions, look_at_histories, say_histories, 38, line="states"),
-    Check("places", Led, look_at_places, say_places, 10, (), "Places"),
-    Check("postures", Led, look_at_postures, say_postures, 36, (), "Postures"),
-    Check("ways", Reach, look_at_ways, say_ways, 10, (), "Ways"),
-    Check("ends", Reach, look_at_ends, say_ends, 12, (), "Ends", ENDS),
-    Check("opening", Curve, look_at_opening, say_opening, 10, (), "Joints closed", OPENING, line="violation"),
-    Check("curve", Curve, look_at_curve, say_curve, 36, (), "Curve"),
+    Check("shortened_steps", Positions, _look_at_steps, _say_steps, 34, line="steps"),
+    Check("branches", Positions, _look_at_branches, _say_branches, 36, (), "Branches of positions"),
+    Check("histories", Positions, _look_at_histories, _say_histories, 38, line="states"),
+    Check("places", Led, _look_at_places, _say_places, 10, (), "Places"),
+    Check("postures", Led, _look_at_postures, _say_postures, 36, (), "Postures"),
+    Check("ways", Reach, _look_at_ways, _say_ways, 10, (), "Ways"),
+    Check("ends", Reach, _look_at_ends, _say_ends, 12, (), "Ends", ENDS),
+    Check("opening", Curve, _look_at_opening, _say_opening, 10, (), "Joints closed", OPENING, line="violation"),
+    Check("curve", Curve, _look_at_curve, _say_curve, 36, (), "Curve"),
 )

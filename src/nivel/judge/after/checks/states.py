@@ -208,8 +208,7 @@ def look_at_sides(run: Run) -> list[Contradiction]:
     return list(found.values())
 
 
-def say_side(found: Contradiction) -> Item:
-    """Which element, in which state, and when."""
+def _say_side(found: Contradiction) -> Item:
     of = " of the second run" if found.second else ""
     more = f", in {found.count} frames{of}" if found.count > 1 else of
     text = f"State: {found.element} {found.said} at t = {found.time:.6g} s{more}: its state is wrong, use shorter steps or another method"
@@ -266,8 +265,7 @@ def look_at_states(run: Run) -> list[SmallState]:
     return out
 
 
-def say_state(found: SmallState) -> Item:
-    """A state of which the tolerance says little."""
+def _say_state(found: SmallState) -> Item:
     said = f"the largest value of {found.name} is {number(found.largest)}, its scale is {number(found.scale)}: the tolerance hardly held"
     section, name = found.place
     advice = f"write `{section}: {{{name}: {{scale: {found.largest:.1g}}}}}`"
@@ -292,8 +290,7 @@ class Charged(Struct):
     given: tuple[float, float]
 
 
-def look_at_batteries(run: Run) -> list[Charged]:
-    """Every battery."""
+def _look_at_batteries(run: Run) -> list[Charged]:
     out = []
     for force in run.machine.forces:
         if (battery := getattr(force, "battery", None)) is not None:
@@ -306,8 +303,7 @@ def look_at_batteries(run: Run) -> list[Charged]:
     return out
 
 
-def say_battery(found: Charged) -> Item:
-    """A battery that is emptier or fuller than it can be, or than is known of it."""
+def _say_battery(found: Charged) -> Item:
     first, last = map(number, found.given)
     charge = f"the charge of {found.drive} is {number(found.charge)} at t = {found.time:.6g} s"
     advice = "give it a larger `capacity` or another `start`, take less from it, or give `voltages` there"
@@ -321,7 +317,7 @@ def say_battery(found: Charged) -> Item:
 
 
 CHECKS = (
-    Check("battery", Run, look_at_batteries, say_battery, 219, (FRAMES,), "Battery", CHARGED, quiet=True),
-    Check("state", Run, look_at_sides, say_side, 218, (FRAMES,), "State", blind="both have {row} in a wrong state"),
-    Check("states", Run, look_at_states, say_state, 400, (TOLERANCE,), "States"),
+    Check("battery", Run, _look_at_batteries, _say_battery, 219, (FRAMES,), "Battery", CHARGED, quiet=True),
+    Check("state", Run, look_at_sides, _say_side, 218, (FRAMES,), "State", blind="both have {row} in a wrong state"),
+    Check("states", Run, look_at_states, _say_state, 400, (TOLERANCE,), "States"),
 )

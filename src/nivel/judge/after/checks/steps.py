@@ -39,7 +39,7 @@ class Fast(Struct):
     method: str
 
 
-def look_at_steps(run: Run) -> Fast | None:
+def _look_at_steps(run: Run) -> Fast | None:
     """The fastest rate at the start or in the last state; None where the run is not red, or has failed: then its advice has told."""
     if worst(run.items) != "red" or run.outcome == "failed":
         return None
@@ -52,8 +52,7 @@ def look_at_steps(run: Run) -> Fast | None:
     return Fast(most.part, most.rate, settings.step, held_step(settings.integrator, most.rate), settings.integrator)
 
 
-def say_steps(found: Fast) -> Item:
-    """What is fastest, and the step that it asks for."""
+def _say_steps(found: Fast) -> Item:
     of = f", of {found.part}" if found.part else ""
     too_long = found.step > found.held
     step, does = (found.held, "holds") if too_long else (STEP_RATE.green / found.rate, "follows")
@@ -81,7 +80,7 @@ class Turn(Struct):
     counted: bool = False
 
 
-def look_at_turns(run: Run) -> Turn | None:
+def _look_at_turns(run: Run) -> Turn | None:
     """The largest turn in a step; the body is the fastest one then. Where steps are chosen no body turns too far."""
     result, settings, turned = run.result, run.plan.settings, run.pace[TURNED]
     counted = settings.coordinates == "relative"
@@ -94,8 +93,7 @@ def look_at_turns(run: Run) -> Turn | None:
     return Turn(result.coordinates["body"][int(np.nan_to_num(speed).argmax())], float(turned[part]), time, counted)
 
 
-def say_turn(found: Turn) -> Item:
-    """The turn, and what is lost by it."""
+def _say_turn(found: Turn) -> Item:
     threshold = Threshold(TURN_IN_STEP.amber, math.inf, "") if found.counted else TURN_IN_STEP
     lost = "forces that depend on its angle are not resolved" if found.counted else "its turns can no longer be counted"
     meaning = lost if found.angle > TURN_IN_STEP.amber else "that is more than the method resolves"
@@ -138,7 +136,7 @@ class Otherwise(Struct):
     positions: bool
 
 
-def look_between_frames(run: Run) -> Hidden | None:
+def _look_between_frames(run: Run) -> Hidden | None:
     """The worst of all loads and sensors."""
     result, worst = run.result, Hidden("", HIDDEN)
     if len(result.time) > MOST:
@@ -184,14 +182,14 @@ def _in_blocks(names: list[str], of: Curve, chosen: NDArray[np.bool_]) -> Iterat
         yield [names[each] for each in k], Curve(of.time, *parts)
 
 
-def say_between_frames(found: Hidden) -> Item:
+def _say_between_frames(found: Hidden) -> Item:
     """The line is green: the stored numbers are right."""
     why = f"that of {found.name} may be {number(100.0 * found.share)} % larger than any stored number"
     said = f"Not examined: peaks, work and cycles between frames: {why}; a shorter output_interval shows them"
     return Item("unexamined", "green", said, row=found.name)
 
 
-def look_otherwise(subject: Run | Positions | Actuated) -> Otherwise | None:
+def _look_otherwise(subject: Run | Positions | Actuated) -> Otherwise | None:
     """The worst number at a probe: of places, if one of these goes otherwise, else of all; of efforts what their own times leave open."""
     positions = not isinstance(subject, Run)
     found = [
@@ -233,7 +231,7 @@ def _of_variable(result: Any, variable: str, off: NDArray[np.float64], positions
     yield Otherwise(name, float(off[k]), units, float(share[k]), is_motion, positions)
 
 
-def say_otherwise(found: Otherwise) -> Item:
+def _say_otherwise(found: Otherwise) -> Item:
     """Amber where the motion itself is another one between frames."""
     frames, what = (
         ("positions", "more positions show") if found.positions else ("frames", "a shorter output_interval shows")
@@ -248,8 +246,8 @@ def say_otherwise(found: Otherwise) -> Item:
 
 
 CHECKS = (
-    Check("steps", Run, look_at_steps, say_steps, 350, RATES_KNOWN, "Steps", STEP_RATE, quiet=True, last=True),
-    Check("turn", Run, look_at_turns, say_turn, 230, (FIXED_STEPS,), "Turning", TURN_IN_STEP, TURNED_FAR, quiet=True),
-    Check("between_frames", Run, look_between_frames, say_between_frames, 914, (FRAMES,), line="unexamined"),
-    Check("otherwise", MOVING, look_otherwise, say_otherwise, 27, (FRAMES,), "Between frames", line="between_frames"),
+    Check("steps", Run, _look_at_steps, _say_steps, 350, RATES_KNOWN, "Steps", STEP_RATE, quiet=True, last=True),
+    Check("turn", Run, _look_at_turns, _say_turn, 230, (FIXED_STEPS,), "Turning", TURN_IN_STEP, TURNED_FAR, quiet=True),
+    Check("between_frames", Run, _look_between_frames, _say_between_frames, 914, (FRAMES,), line="unexamined"),
+    Check("otherwise", MOVING, _look_otherwise, _say_otherwise, 27, (FRAMES,), "Between frames", line="between_frames"),
 )

@@ -19,27 +19,25 @@ class Verification(Struct):
     lacks: tuple[str, ...] = ()
 
 
-def look_at_run(run: subjects.Run) -> Verification:
-    """The second run, and the one with other elements."""
+def _look_at_run(run: subjects.Run) -> Verification:
     if run.second is None or not len(run.second.result.time):
         return Verification((), ("no second run was made",))
     by, lacks = examined_elements(run.machine, run.elements)
     return Verification((f"a second run with {run.second.refinement.words}", *by), lacks)
 
 
-def look_at_equilibria(subject: subjects.Equilibria) -> Verification:
-    """The balance of forces, and the equilibria with other elements."""
+def _look_at_equilibria(subject: subjects.Equilibria) -> Verification:
     by, lacks = examined_elements(subject.machine, subject.elements)
     return Verification(("the balance of forces in every state", *by), lacks)
 
 
-def look_at_positions(subject: subjects.Positions) -> Verification:
+def _look_at_positions(subject: subjects.Positions) -> Verification:
     """Constraints, and functions of drivers that are evaluated apart from them."""
     by, lacks = _followed(subject)
     return Verification(("the closed joints", *by), lacks)
 
 
-def look_at_efforts(subject: subjects.Actuated) -> Verification:
+def _look_at_efforts(subject: subjects.Actuated) -> Verification:
     """The balance of forces, what the motion says of itself, and the functions of the drivers."""
     by, lacks = _followed(subject)
     motion = subject.result.trust
@@ -55,12 +53,12 @@ def _followed(subject: subjects.Positions | subjects.Actuated) -> tuple[tuple[st
     return ("the functions of its drivers, evaluated apart",) if compared else (), lacks
 
 
-def look_at_led(subject: subjects.Led) -> Verification:
+def _look_at_led(subject: subjects.Led) -> Verification:
     """The postures themselves: where they put the point, evaluated at each of them."""
     return Verification(("the place of the point in every posture, with its joints closed",))
 
 
-def look_at_reach(subject: subjects.Reach) -> Verification:
+def _look_at_reach(subject: subjects.Reach) -> Verification:
     """The kinematic analyses of both ways, and the turning points of the curve of positions."""
     ways = "the closed joints of both ways"
     if subject.range.full_turn or not (subject.range.low_reason or subject.range.high_reason):
@@ -70,12 +68,12 @@ def look_at_reach(subject: subjects.Reach) -> Verification:
     return Verification((ways, "the turning points of the curve of positions"))
 
 
-def look_at_curve(_: subjects.Curve) -> Verification:
+def _look_at_curve(_: subjects.Curve) -> Verification:
     """The joints at all places."""
     return Verification(("the closed joints at every position",))
 
 
-def look_at_linear(subject: subjects.Linearisation) -> Verification:
+def _look_at_linear(subject: subjects.Linearisation) -> Verification:
     """What eigenvalues are of: an equilibrium, or a motion that was followed; and vibrations with other elements."""
     if subject.unsteady or any(each.jumps for each in subject.kinks):
         return Verification((), ("the linear equations, which describe no motion",))
@@ -86,7 +84,7 @@ def look_at_linear(subject: subjects.Linearisation) -> Verification:
     return Verification((by, *more), (*lacks, *run))
 
 
-def look_at_methods(subject: subjects.Methods) -> Verification:
+def _look_at_methods(subject: subjects.Methods) -> Verification:
     """The references, each of which checks the other."""
     references, rows = subject.references, [each for each in subject.rows if each.outcome == "done"]
     if not references or not rows:
@@ -98,8 +96,7 @@ def look_at_methods(subject: subjects.Methods) -> Verification:
     return Verification(tuple(each.name for each in references))
 
 
-def look_at_sweep(sweep: subjects.Sweep) -> Verification:
-    """The variants that were verified, and those that were not."""
+def _look_at_sweep(sweep: subjects.Sweep) -> Verification:
     ran = [each for each in sweep.variants if each.verdict]
     left = [each for each in ran if not each.verified]
     if len(left) == len(ran):
@@ -153,8 +150,7 @@ class Outcome(Struct):
     said: str
 
 
-def look_at_outcome(subject: subjects.Subject) -> Outcome:
-    """The outcome, with the failure or the event that ended it."""
+def _look_at_outcome(subject: subjects.Subject) -> Outcome:
     words = next((each for kind, each in SAID.items() if isinstance(subject, kind)), {})
     said = words.get(subject.outcome, subject.outcome)
     if isinstance(subject, subjects.Motion) and subject.stopped_by:
@@ -162,8 +158,7 @@ def look_at_outcome(subject: subjects.Subject) -> Outcome:
     return Outcome(subject.outcome, f"{said}: {subject.failure}" if subject.failure else said)
 
 
-def say_outcome(found: Outcome) -> Item:
-    """The line of the outcome."""
+def _say_outcome(found: Outcome) -> Item:
     return Item("outcome", VERDICTS.get(found.outcome, "red"), f"Outcome: {found.said}")
 
 
@@ -190,15 +185,13 @@ class Judged(Struct):
     headline: str
 
 
-def look_at_ends(sweep: subjects.Sweep) -> Ran:
-    """Variants that failed, were refused or not run."""
+def _look_at_ends(sweep: subjects.Sweep) -> Ran:
     others = [each for each in sweep.variants if each.outcome not in ENDED]
     first, reason = (others[0].name, others[0].reason or others[0].outcome) if others else ("", "")
     return Ran(len(sweep.variants), len(sweep.variants) - len(others), first, reason)
 
 
-def say_ends(found: Ran) -> Item:
-    """How many came to their end."""
+def _say_ends(found: Ran) -> Item:
     said = f"Variants: {found.ended} of {found.count} came to their end"
     if found.ended == found.count:
         return Item("variants", "green", f"{said} (green if all do)")
@@ -207,8 +200,7 @@ def say_ends(found: Ran) -> Item:
     return Item("variants", verdict, text, row=found.first)
 
 
-def look_at_verdicts(sweep: subjects.Sweep) -> Judged:
-    """The trust reports of the variants."""
+def _look_at_verdicts(sweep: subjects.Sweep) -> Judged:
     by: dict[str, list[subjects.Variant]] = {
         colour: [each for each in sweep.variants if each.verdict == colour] for colour in WORST
     }
@@ -217,8 +209,7 @@ def look_at_verdicts(sweep: subjects.Sweep) -> Judged:
     return Judged(count, len(by["red"]), len(by["amber"]), worst.name if worst else "", worst.headline if worst else "")
 
 
-def say_verdicts(found: Judged) -> Item:
-    """The worst of them."""
+def _say_verdicts(found: Judged) -> Item:
     if not found.red and not found.amber:
         text = f"Verdicts: no trust report of {found.count} is amber or red (the colour is that of the worst)"
         return Item("verdicts", "green", text)
@@ -236,7 +227,7 @@ class Held(Struct):
     blind: tuple[str, ...]
 
 
-def look_at_references(subject: subjects.Methods) -> Held:
+def _look_at_references(subject: subjects.Methods) -> Held:
     """The references, the best first."""
     every = subject.references
     return Held(
@@ -244,8 +235,7 @@ def look_at_references(subject: subjects.Methods) -> Held:
     )
 
 
-def say_references(found: Held) -> Item:
-    """Whether errors of motions are known."""
+def _say_references(found: Held) -> Item:
     limits = "(green with two references of different methods that miss nothing)"
     if not found.names:
         return Item("references", "amber", f"References: there are none, so no error of a motion is known {limits}")
@@ -265,18 +255,18 @@ def say_references(found: Held) -> Item:
 
 
 CHECKS = (
-    Check("verification", subjects.Run, look_at_run, lambda _: None, 1),
-    Check("verification", subjects.Equilibria, look_at_equilibria, lambda _: None, 1),
-    Check("verification", subjects.Positions, look_at_positions, lambda _: None, 1),
-    Check("verification", subjects.Actuated, look_at_efforts, lambda _: None, 1),
-    Check("verification", subjects.Led, look_at_led, lambda _: None, 1),
-    Check("verification", subjects.Reach, look_at_reach, lambda _: None, 1),
-    Check("verification", subjects.Curve, look_at_curve, lambda _: None, 1),
-    Check("verification", subjects.Linearisation, look_at_linear, lambda _: None, 1),
-    Check("verification", subjects.Methods, look_at_methods, lambda _: None, 1),
-    Check("verification", subjects.Sweep, look_at_sweep, lambda _: None, 1),
-    Check("outcome", subjects.Subject, look_at_outcome, say_outcome, 0, (), "Outcome"),
-    Check("variants", subjects.Sweep, look_at_ends, say_ends, 12, (), "Variants"),
-    Check("verdicts", subjects.Sweep, look_at_verdicts, say_verdicts, 14, (), "Verdicts"),
-    Check("references", subjects.Methods, look_at_references, say_references, 10, (), "References"),
+    Check("verification", subjects.Run, _look_at_run, lambda _: None, 1),
+    Check("verification", subjects.Equilibria, _look_at_equilibria, lambda _: None, 1),
+    Check("verification", subjects.Positions, _look_at_positions, lambda _: None, 1),
+    Check("verification", subjects.Actuated, _look_at_efforts, lambda _: None, 1),
+    Check("verification", subjects.Led, _look_at_led, lambda _: None, 1),
+    Check("verification", subjects.Reach, _look_at_reach, lambda _: None, 1),
+    Check("verification", subjects.Curve, _look_at_curve, lambda _: None, 1),
+    Check("verification", subjects.Linearisation, _look_at_linear, lambda _: None, 1),
+    Check("verification", subjects.Methods, _look_at_methods, lambda _: None, 1),
+    Check("verification", subjects.Sweep, _look_at_sweep, lambda _: None, 1),
+    Check("outcome", subjects.Subject, _look_at_outcome, _say_outcome, 0, (), "Outcome"),
+    Check("variants", subjects.Sweep, _look_at_ends, _say_ends, 12, (), "Variants"),
+    Check("verdicts", subjects.Sweep, _look_at_verdicts, _say_verdicts, 14, (), "Verdicts"),
+    Check("references", subjects.Methods, _look_at_references, _say_references, 10, (), "References"),
 )

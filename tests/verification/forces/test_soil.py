@@ -5,6 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
+from scipy.optimize import minimize_scalar
 
 from nivel.elements.contacts.height_field import HeightField
 from nivel.elements.contacts.on_soil import sheared
@@ -42,6 +43,23 @@ def test_the_wedge_under_level_ground_is_coulombs_passive_pressure(degrees):
     passive = math.sin(rho - phi) ** 2 / (math.sin(rho) ** 2 * math.sin(rho + delta) * (1.0 - root) ** 2)
     beta = failure_angle(rho, phi, delta)
     assert wedge_factor(rho, beta, phi, delta) == pytest.approx(0.5 * passive, rel=1e-12)
+
+
+@pytest.mark.parametrize("degrees", [(30, 1e-6, 10), (30, 1e-6, -10), (35, 23, 10), (35, 23, -10)])
+def test_the_least_wedge_of_cells_on_a_slope_is_coulombs_passive_pressure(degrees):
+    """Of an upright face; the failure angle of level ground has a greater force, which is not the least."""
+    phi, delta, rise = map(math.radians, degrees)
+    field = HeightField(size=[5, 1], function=f"1 + {math.tan(rise)!r}*x", points=[201, 41])
+    soil = Soil(density=1.0 / G, cohesion=0, tool_friction=delta, friction_angle=phi)
+    own = SoilUnit(soil, field, 1, np.array([0.0, 0.0, -G]), 0.0).record
+    edge = np.array([2.5, 0.3, 0.6, 2.5, 0.7, 0.6])
+    upright, between = 0.5 * math.pi, (0.2 if rise > 0.0 else 0.05, 0.95 * (0.5 * math.pi - phi - delta))
+    force = minimize_scalar(
+        lambda beta: wedge(own, edge, 1.0, 0.0, upright, beta)[0], bounds=between, method="bounded"
+    ).fun
+    root = math.sqrt(math.sin(phi + delta) * math.sin(phi + rise) / (math.cos(delta) * math.cos(rise)))
+    passive = math.cos(phi) ** 2 / (math.cos(delta) * (1.0 - root) ** 2)
+    assert force == pytest.approx(0.5 * passive * 0.4**2 * 0.4, rel=2e-3)
 
 
 @pytest.mark.parametrize("depth", [0.1, 0.2, 0.4])
@@ -445,3 +463,8 @@ def test_a_rigid_wheel_rolls_against_the_work_of_compaction():
     resisted = -found.array("force.rolling.longitudinal")[late].mean()
     # Bekker 1969: the work of a plate of the same width that sinks as deep, by the length of the rut
     assert resisted == pytest.approx(width * k * sinkage ** (n + 1) / (n + 1), rel=3e-3)
+    # its load: the pressure k zⁿ before the axle, and behind it that of a rebound by p/U, which ends √(2 R p/U) from the axle
+    x = np.linspace(0.0, math.sqrt(sinkage * (1.0 - sinkage)), 20_001)
+    before = np.trapezoid((sinkage - 0.5 + np.sqrt(0.25 - x * x)).clip(0.0) ** n, x)
+    borne = width * k * (before + 2.0 / 3.0 * sinkage**n * math.sqrt(2.0 * 0.5 * k * sinkage**n / 5e10))
+    assert found.array("force.rolling.magnitude")[late].mean() == pytest.approx(borne, rel=1e-3)

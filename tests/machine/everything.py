@@ -484,6 +484,8 @@ EVERYTHING = {
                 "coefficients": {
                     "FNOMIN": 4e3,
                     "UNLOADED_RADIUS": 0.31,
+                    "NOMPRES": 2.2e5,
+                    "PPX1": -0.3,
                     "PCX1": 1.6,
                     "PDX1": 1.1,
                     "PKX1": 20.0,

@@ -148,8 +148,8 @@ class Section(Rated):
                 yield superfluous("ports", "LS belongs to a section with a compensator")
             else:
                 yield Problem((), "port LS is missing: the compensator reads the load-sensing pressure; write `LS: ls`")
-        usual = type(self).model_fields["margin"].default
-        if self.margin != usual and (self.open_centre or self.compensation == "none"):
+        usual = {key: field.default for key, field in type(self).model_fields.items()}
+        if self.margin != usual["margin"] and (self.open_centre or self.compensation == "none"):
             yield superfluous("margin", "belongs to a section with a compensator")
         if self.saturation_share is not None and _feed(self) != "pre":
             yield superfluous("saturation_share", "belongs to `compensation: pre`; post shares the flow by itself")
@@ -171,8 +171,13 @@ class Section(Rated):
             yield Problem(("float_from",), f"a share from {least:g} to 0.95 was expected, got {self.float_from:g}")
         if self.bypass_closes <= self.overlap:
             yield Problem(("bypass_closes",), f"more than the overlap was expected, got {self.bypass_closes:g}")
-        if self.bypass_flow is not None and self.open_centre is None:
-            yield superfluous("bypass_flow", "belongs to a section with an `open_centre`")
+        for key, owner in (
+            ("bypass_flow", "open_centre"),
+            ("bypass_closes", "open_centre"),
+            ("regeneration_until", "regeneration"),
+        ):
+            if getattr(self, key) != usual[key] and getattr(self, owner) is None:
+                yield superfluous(key, f"belongs to a section with `{owner}`")
 
 
 def _feed(data: Any) -> str:

@@ -54,6 +54,11 @@ class MagicFormula(Checked):
         known = {*SIZES, *SCALES, *of_formula}
         return [key for key in self.coefficients if key not in known]
 
+    @property
+    def nominal_pressure(self) -> float:
+        """For which the numbers are [Pa]; 0 where they are for any."""
+        return self.get("NOMPRES") if self.version == "6.1" else 0.0
+
     def get(self, key: str, absent: float = 0.0) -> float:
         """A number of the file."""
         return self.coefficients.get(key, absent)
@@ -153,9 +158,9 @@ def numbers_of(formula: MagicFormula, pressure: float | None, side: str | None) 
         for name, count in Magic.several.items()
     }
     scale = {key: formula.get(key, 1.0) for key in SCALES}
-    newer, nominal = formula.version == "6.1", formula.get("NOMPRES")
+    newer, nominal = formula.version == "6.1", formula.nominal_pressure
     actual = formula.get("INFLPRES", nominal) if pressure is None else pressure
-    dpi = (actual - nominal) / nominal if newer and nominal and actual else 0.0
+    dpi = (actual - nominal) / nominal if nominal and actual else 0.0
     ppx, ppy, ppz = n["ppx"], n["ppy"], n["ppz"]
     # friction scales peaks, and by less the shifts that go with it (4.E8); stiffness is by `LK`
     mu = scale["LMUX"], scale["LMUY"]

@@ -246,6 +246,8 @@ class Tyre(ForceElement):
         for name in ("side", "pressure"):
             if self.magic is None and getattr(self, name) is not None:
                 yield superfluous(name, "belongs to the `file` of a Magic Formula, and none is given")
+        if self.magic is not None and self.pressure is not None and not self.magic.nominal_pressure:
+            yield superfluous("pressure", "has no effect by this `file`: version 6.1 and `NOMPRES` were expected")
         if self.magic is not None and self.rolling_resistance != ROLLING:
             yield superfluous("rolling_resistance", "is that of the `file`")
         for name in ("along", "across"):

@@ -47,7 +47,9 @@ def test_steps_make_the_motion_of_a_run_to_the_last_bit():
     sim.advance(0.1)
     assert sim.time == pytest.approx(0.2)
     np.testing.assert_array_equal(sim["crank.position"], run.array("crank.position")[200])
-    np.testing.assert_array_equal(sim.result().array("position"), run.array("position")[:201])
+    recording = sim.result()
+    np.testing.assert_array_equal(recording.array("position"), run.array("position")[:201])
+    assert (recording.outcome, recording.trust.verified) == ("done", False)
 
 
 @pytest.mark.parametrize("integrator", ["rk4", "am4", "ros2"])
@@ -137,11 +139,16 @@ def test_a_step_that_fails_says_when_and_why():
     text = CART.replace("effort: push.value", "effort: 1/(push.value - 1)")
     from nivel.files import parse_machine
 
-    sim = nivel.Machine.from_record(parse_machine(text)).start()
+    sim = nivel.Machine.from_record(parse_machine(text)).start(record=True)
     sim.advance(0.01)
+    before = sim.state
     with pytest.raises(SolveError) as caught:
         sim.step({"push": 1.0})
     assert caught.value.time == pytest.approx(0.01)
+    assert sim.result().outcome == caught.value.result.outcome == "failed"
+    assert sim.result().failure in str(caught.value)
+    sim.restore(before)
+    assert sim.result().outcome == "done"
 
 
 @pytest.mark.parametrize(

@@ -156,6 +156,7 @@ class Simulation:
         self._memory.begin(self._header)
         self._counter[of_run.EVERY] = plan.settings.every if record else ENDLESS
         self._recorded = record
+        self._failure: dict[str, str] = {}
         self.go(0)
 
     # --- moving ---
@@ -227,6 +228,7 @@ class Simulation:
     def _fail(self, status: int) -> None:
         jam = jam_of(self.prepared, self.settings, self._run) if status in BEFORE_A_JAM else None
         message, advice, time = failure_of(self.prepared, self.settings, self._run, status, jam)
+        self._failure = {"outcome": "failed", "failure": message}
         raise SolveError(message, time=time, advice=advice, result=self.result() if self._recorded else None)
 
     def set_inputs(self, inputs: Mapping[str, float]) -> None:
@@ -454,7 +456,7 @@ class Simulation:
         if not self._recorded:
             raise ModelError("nothing was recorded: start the simulation with `record=True`")
         self._take_frames()
-        return self._memory.close({"outcome": "interrupted"})
+        return self._memory.close({"outcome": "done", **self._failure})
 
     def _take_frames(self) -> None:
         filled = self._counter[of_run.FRAMES]
@@ -503,6 +505,7 @@ class Simulation:
         for unit, content in zip(self._system.units, state.units, strict=True):
             unit.restore(content)
         self._counter[of_run.FRAMES] = 0
+        self._failure = {}
         if self._events:
             self._events = [event for event in self._events if event.time <= state.time]
         self._observed = -np.inf

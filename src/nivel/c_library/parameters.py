@@ -152,7 +152,6 @@ def _unlike_output(base: Exported, numbers: Numbers, x: Array, other: Exported) 
 
 
 def _outputs_after(machine: Exported) -> dict[str, float]:
-    """Outputs of a machine by name after some steps."""
     run = machine.loop.history.record
     for _ in range(STEPS):
         run.counter[[BUDGET, FRAMES, EVENTS]] = 1, 0, 0

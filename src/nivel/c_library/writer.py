@@ -89,7 +89,6 @@ def _filled(template: str, values: Mapping[str, Any]) -> str:
 
 
 def _texts(machine: Exported) -> dict[str, Any]:
-    """What the templates ask for."""
     name, image = machine.identifier, machine.image
     words = image.words.nonzero()[0]
     names = [each for failure in machine.failures for each in failure.names]
@@ -144,7 +143,6 @@ def _in_capitals(name: str) -> str:
 
 
 def _quoted(text: str) -> str:
-    """A text as C writes it."""
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 

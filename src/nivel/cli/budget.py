@@ -76,12 +76,9 @@ def budget(
     """
     for name in integrators or ():
         if name not in nivel.live.budget.fixed_methods():
-            raise ModelError(
-                Fault.at(
-                    "integrators",
-                    nivel.machine.core.record.unknown_word(name, nivel.live.budget.fixed_methods(), "integrator"),
-                )
-            )
+            known = nivel.live.budget.fixed_methods()
+            message = nivel.machine.core.record.unknown_word(name, known, "integrator")
+            raise ModelError(Fault.at("integrators", message))
     record = nivel.api.load(machine, overrides, allow_code=allow_code).record
     own = record.simulation.integrator
     with nivel.cli.progress.progress_listener(quiet) as listener:

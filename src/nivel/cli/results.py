@@ -107,7 +107,6 @@ def _tables(
 
 
 def _trust(table: xarray.Dataset) -> dict[str, Any]:
-    """What the numbers of a table are worth."""
     return {name: table.attrs[name] for name in ("verdict", "verified", "headline")}
 
 

@@ -63,7 +63,9 @@ def command(
 
     The run of RESULT may still be going on, or may have been killed. The body file must be the one of the run.
     """
-    _refuse_without_nodes(nodes, {"--rainflow": cycles, "--fatigue": fatigue, "--plot": picture, "--strain": strains})
+    needing = {"--rainflow": cycles, "--fatigue": fatigue, "--plot": picture, "--strain": strains}
+    if not nodes and (missing := [option for option, value in needing.items() if value]):
+        raise click.UsageError(f"{missing[0]} needs --node: the nodes whose history it is of")
     if strains and table is None:
         raise click.UsageError("--strain needs --csv: the table in which the strains stand")
     if picture is not None:
@@ -92,12 +94,6 @@ def command(
         for name, path in (("table", table), ("cycles", cycles), ("plot", picture), ("loads", loads), ("motion", vtk)):
             if path is not None:
                 click.echo(f"{name}: {path}", err=True)
-
-
-def _refuse_without_nodes(nodes: tuple[str, ...] | None, needing: dict[str, Any]) -> None:
-    missing = [option for option, value in needing.items() if value]
-    if missing and not nodes:
-        raise click.UsageError(f"{missing[0]} needs --node: the nodes whose history it is of")
 
 
 def _times(words: tuple[str, ...]) -> list[float]:

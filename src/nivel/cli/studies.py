@@ -198,7 +198,6 @@ class _Left:
 
 
 def _recent(study: Study, last: deque[tuple[int, Any]]) -> Any:
-    """The table of the last variants."""
     record, values = study.file.record, study.variants.values
     parameters, outputs = list(record.parameters)[:COLUMNS], list(record.outputs)[:COLUMNS]
     shown = rich.table.Table(box=rich.box.SIMPLE_HEAD, show_edge=False, pad_edge=False)

@@ -144,7 +144,6 @@ def _lines(mechanism: Mechanism) -> dict[str, tuple[int, str]]:
 
 
 def _is_tree(mechanism: Mechanism) -> bool:
-    """Whether no body is the second of two joints."""
     second = [mechanism.groups[each.bodies[1]].first for each in mechanism.connections if not each.lumps]
     return len(second) == len(set(second))
 
@@ -188,7 +187,8 @@ def _bodies(mechanism: Mechanism, drawing: Drawing) -> tuple[dict[str, Any], lis
     """Data of all bodies by name, and what is drawn on the ground."""
     bodies: dict[str, Any] = {}
     on_ground: list[Any] = []
-    loose = _without_joints(mechanism)
+    joined = {mechanism.groups[name].first for each in mechanism.connections if not each.lumps for name in each.bodies}
+    loose = {group.first for group in mechanism.groups.values()} - joined
     for first, group in {group.first: group for group in mechanism.groups.values()}.items():
         drawn = [
             shape
@@ -216,11 +216,6 @@ def _bodies(mechanism: Mechanism, drawing: Drawing) -> tuple[dict[str, Any], lis
         body = {key: value for key, value in body.items() if key not in ("position", "centre_of_mass") or any(value)}
         bodies[mechanism.names.name("body", first)] = body | ({"looks": drawn} if drawn else {})
     return bodies, on_ground
-
-
-def _without_joints(mechanism: Mechanism) -> set[str]:
-    joined = {mechanism.groups[name].first for each in mechanism.connections if not each.lumps for name in each.bodies}
-    return {group.first for group in mechanism.groups.values()} - joined
 
 
 def _light(mechanism: Mechanism, first: str) -> Inertial:
@@ -287,7 +282,6 @@ def _joint_markers(each: Connection, mechanism: Mechanism) -> list[dict[str, Any
 
 
 def _markers(mechanism: Mechanism) -> dict[str, Any]:
-    """Frames of links that became part of another body."""
     out = {}
     for name, group in mechanism.groups.items():
         if name not in (WORLD, group.first):

@@ -45,11 +45,8 @@ class Poses(Struct, frozen=False):
     def add(self, name: str, element: Element, default: str) -> None:
         """A frame whose <pose> is relative to `default` unless it says otherwise."""
         pose = element.first("pose")
-        self.given[name] = (
-            (pose.get("relative_to") if pose is not None else "") or default,
-            pose_of(element, self.document),
-            element,
-        )
+        before = (pose.get("relative_to") if pose is not None else "") or default
+        self.given[name] = (before, pose_of(element, self.document), element)
 
     def place(self, name: str) -> Frame:
         """The global frame. Faults go to the document."""

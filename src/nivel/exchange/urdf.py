@@ -33,7 +33,8 @@ def read_urdf(document: Document, base: str | None, contacts: str = "all") -> Me
     name = root.get("name") or "robot"
     mechanism = Mechanism(name, "URDF", GRAVITY)
     notes = mechanism.notes
-    colours, (surfaces, touching) = _materials(root, document), _surfaces(root, document)
+    colours = {each.get("name"): colour for each in root.all("material") if (colour := _colour(each, document))}
+    surfaces, touching = _surfaces(root, document)
     for element in root.all("link"):
         link = _link(element, document, colours, notes)
         if link.name in mechanism.links:
@@ -94,10 +95,6 @@ def frame_of(element: Element | None, document: Document) -> Frame:
     return Frame(turned(roll, pitch, yaw), np.array(document.numbers(origin, "xyz", (0.0, 0.0, 0.0))))
 
 
-def _materials(root: Element, document: Document) -> dict[str, str]:
-    return {each.get("name"): colour for each in root.all("material") if (colour := _colour(each, document))}
-
-
 def _colour(material: Element | None, document: Document) -> str:
     """`#rrggbb` of a material, or an empty text."""
     colour = material.first("color") if material is not None else None
@@ -130,7 +127,6 @@ def _link(element: Element, document: Document, colours: dict[str, str], notes: 
 
 
 def _add_solids(element: Element, document: Document, mechanism: Mechanism, surface: Surface, model: str) -> None:
-    """The collision elements of a link."""
     link = element.get("name")
     for k, each in enumerate(element.all("collision")):
         look = look_of(each, frame_of(each, document), "", document, 0.0)
@@ -169,37 +165,23 @@ def _inertial(element: Element, document: Document) -> Inertial:
 
 def _place(mechanism: Mechanism, parents: dict[str, Element], document: Document) -> None:
     """Put every link where all joint coordinates are zero."""
-    placed: set[str] = set()
-
-    def chain(name: str) -> list[str]:
-        """Links from one that is placed, or the root, to `name`."""
-        out: list[str] = []
+    links = mechanism.links
+    placed = links.keys() - parents.keys()
+    for end in links:
+        name, chain = end, dict[str, str]()  # link → the one before it, up to one that is placed
         while name not in placed:
-            out.append(name)
-            joint = parents.get(name)
-            if joint is None:
-                break
-            parent = joint.first("parent")
-            assert parent is not None
-            before = parent.get("link")
-            if before not in mechanism.links:
+            joint = parents[name]
+            before = chain[name] = _named(joint, "parent", document)
+            if before not in links:
                 document.fault(joint, f"there is no link `{before}`")
                 break
-            if before in out:
+            if before in chain:
                 document.fault(joint, f"the links lead back to `{before}`; a URDF is a tree")
                 break
             name = before
-        return out[::-1]
-
-    for name in mechanism.links:
-        for link in chain(name):
-            joint = parents.get(link)
-            if joint is not None:
-                parent = joint.first("parent")
-                assert parent is not None
-                before = mechanism.links.get(parent.get("link"))
-                if before is not None:
-                    mechanism.links[link].place = before.place @ frame_of(joint, document)
+        for link, before in reversed(chain.items()):
+            if before in links:
+                links[link].place = links[before].place @ frame_of(parents[link], document)
             placed.add(link)
     for child, joint in parents.items():
         if child not in mechanism.links:
@@ -208,10 +190,8 @@ def _place(mechanism: Mechanism, parents: dict[str, Element], document: Document
 
 def _joint(element: Element, mechanism: Mechanism, document: Document) -> Connection | None:
     """The joint; None of a floating one, whose link is free."""
-    kind, parent, child = element.get("type"), element.first("parent"), element.first("child")
-    assert parent is not None
-    assert child is not None
-    bodies = (parent.get("link"), child.get("link"))
+    kind = element.get("type")
+    bodies = (_named(element, "parent", document), _named(element, "child", document))
     at = mechanism.links[bodies[1]].place
     given = Connection(element.get("name"), KINDS.get(kind, "fixed"), bodies, at.origin, line=element.line)
     if not given.name:

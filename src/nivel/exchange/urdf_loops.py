@@ -143,7 +143,6 @@ def _by_name(frames: dict[str, str], mechanism: Mechanism) -> tuple[list[list[st
 
 
 def _change_joints(given: dict[str, Any], joints: dict[str, Connection], mechanism: Mechanism, beside: Path) -> None:
-    """Give joints the kinds that the file beside the model says."""
     for name, told in zip(*_lists(given, "joint_name", "joint_type", beside), strict=True):
         kind, joint = str(told), joints.get(str(name))
         turns = re.fullmatch(r"UJOINT_([XYZ])([XYZ])", kind)

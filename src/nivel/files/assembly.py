@@ -107,7 +107,6 @@ def _moved_body(body: Body, placing: Placement) -> Body:
 
 
 def _placed_shape(shape: Shape, placing: Placement) -> Shape:
-    """The shape in the body frame."""
     if isinstance(shape, Mesh):
         return _placed_mesh(shape, placing)
     if isinstance(shape, Extrusion):

@@ -74,25 +74,17 @@ def _mcap(content: bytes, column: str | None) -> Signal:
     file = reader.make_reader(io.BytesIO(content), decoder_factories=_decoders())
     summary = file.get_summary()
     begin = summary.statistics.message_start_time if summary is not None and summary.statistics is not None else None
-    topic = None if column is None else _topic(column, [each.topic for each in _channels(summary)])
+    channels = () if column is None or summary is None else summary.channels.values()
+    named = [each.topic for each in channels if column.startswith(f"{each.topic}.")]  # else it has to be looked for
     times: dict[str, list[float]] = {}
     values: dict[str, list[float]] = {}
-    for schema, channel, message in file.iter_messages(topics=None if topic is None else [topic]):
+    for schema, channel, message in file.iter_messages(topics=[max(named, key=len)] if named else None):
         begin = message.log_time if begin is None else begin
         for path, value in _numbers(_decoded(schema, channel, message), channel.topic):
             times.setdefault(path, []).append((message.log_time - begin) * NANO)
             values.setdefault(path, []).append(value)
     name = _chosen(column, list(values))
     return np.array(times[name]), np.array(values[name]), ""
-
-
-def _channels(summary: Any) -> list[Any]:
-    return [] if summary is None else [*summary.channels.values()]
-
-
-def _topic(column: str, topics: list[str]) -> str | None:
-    """The topic whose name the name of a signal begins with; None: it has to be looked for."""
-    return max((each for each in topics if column.startswith(f"{each}.")), key=len, default=None)
 
 
 def _decoders() -> list[Any]:

@@ -155,7 +155,6 @@ def _place_of_error(error: yaml.YAMLError, text: str) -> Place:
 
 
 def _place_of_character(at: int, text: str) -> Place:
-    """Place of a character that YAML does not allow."""
     before = text[:at]
     return Place(before.count("\n") + 1, len(before) - (before.rfind("\n") + 1) + 1)
 

@@ -87,7 +87,6 @@ def check_sections(tree: Tree) -> None:
 
 
 def _check_section(tree: Tree, section: str) -> None:
-    """A section is a mapping of names to mappings."""
     content = tree.data.get(section)
     if not isinstance(content, dict):
         if content is not None:

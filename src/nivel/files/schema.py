@@ -122,7 +122,6 @@ def _references(items: dict[str, Any]) -> list[str]:
 
 
 def _without_name(definition: dict[str, Any]) -> None:
-    """In a file the name is the key."""
     definition["properties"].pop("name", None)
     definition["required"] = [word for word in definition.get("required", []) if word != "name"]
 

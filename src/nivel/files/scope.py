@@ -236,14 +236,11 @@ def _part(tree: Tree, name: str, assembly: Assembly, sources: Sources) -> Machin
         except ModelError as error:
             own = error.faults
     hint = f" (in assemblies.{name}, with the parameters given there)"
+    places = [(each.file, each.line, each.column, each.path) for each in own]
     for fault in faults:
-        of_parameters = fault.line and not any(_same_place(fault, each) for each in own)
+        of_parameters = fault.line and (fault.file, fault.line, fault.column, fault.path) not in places
         tree.faults.append(_seen_from_user(fault, assembly, hint if of_parameters else ""))
     return None
-
-
-def _same_place(fault: Fault, other: Fault) -> bool:
-    return (fault.file, fault.line, fault.column, fault.path) == (other.file, other.line, other.column, other.path)
 
 
 def _seen_from_user(fault: Fault, assembly: Assembly, hint: str) -> Fault:

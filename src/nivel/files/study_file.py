@@ -123,17 +123,14 @@ def study_schema() -> dict[str, Any]:
     study = deepcopy(StudyRecord.model_json_schema(by_alias=True, mode="validation"))
     definitions, properties = study["$defs"], study["properties"]
     for record in (*PARAMETERS[1:], *OUTPUTS):
-        definitions[record.__name__]["required"] = ["type", *_without_type(definitions[record.__name__])]
+        required = definitions[record.__name__].get("required", [])
+        definitions[record.__name__]["required"] = ["type", *(word for word in required if word != "type")]
     parameter = properties["parameters"]["additionalProperties"]
     properties["parameters"]["additionalProperties"] = {"anyOf": [{"type": "array"}, parameter]}
     study["allOf"] = [_settings(name, record, definitions) for name, record in SETTINGS.items()]
     study["properties"] = {"format": {"const": FORMAT, "description": "version of the file format"}, **properties}
     study["required"] = ["format", *study.get("required", [])]
     return {"$schema": _DRAFT, **study, "title": "nivel study"}
-
-
-def _without_type(definition: dict[str, Any]) -> list[str]:
-    return [word for word in definition.get("required", []) if word != "type"]
 
 
 def _settings(name: str, record: type[Record], definitions: dict[str, Any]) -> dict[str, Any]:

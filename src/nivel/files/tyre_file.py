@@ -102,10 +102,8 @@ def parsed(text: str) -> TyreFile:
             elif line[0] != "{":
                 read.numbers[section] = read.numbers.get(section, 0.0) + 1.0  # of rows
             continue
-        key, value = (
-            match[1].strip().upper(),
-            next((each for each in match.groups()[1:] if each is not None), "").strip(),
-        )
+        key = match[1].strip().upper()
+        value = next((each for each in match.groups()[1:] if each is not None), "").strip()
         if section == "UNITS":
             units[key] = number, value.lower()
             continue

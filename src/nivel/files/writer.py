@@ -104,7 +104,6 @@ class _Column(list[Any]):
 
 
 def _is_tall(plain: Any) -> bool:
-    """Whether a plain value takes several lines."""
     return type(plain) is dict or isinstance(plain, _Column)
 
 

@@ -183,7 +183,6 @@ class MachineEnvironments(gymnasium.vector.VectorEnv[Any, Any, Any]):
         return self._observation(), np.array(rewards), terminated, truncated, information | self._times()
 
     def _begun(self, which: Sequence[int], given: Mapping[str, Any]) -> dict[str, Any]:
-        """Begin new episodes of these."""
         information: dict[str, Any] = {}
         for k in which:
             values = self._one.drawn(self._random[k]) | dict(given)

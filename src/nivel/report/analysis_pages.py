@@ -151,7 +151,6 @@ def _bode(model: LinearModel) -> list[tuple[str, str]]:
 
 
 def _pair(sizes: list[Line], title: str, turns: list[Line]) -> tuple[str, str]:
-    """Plots of magnitudes and of phases."""
     over = curves(sizes, "frequency [Hz]", title, log_x=True, log_y=True)
     return over, curves(turns, "frequency [Hz]", "phase [°]", log_x=True)
 
@@ -173,7 +172,6 @@ def _random(model: LinearModel) -> dict[str, Any] | None:
 
 
 def _sampled(model: LinearModel) -> dict[str, Any] | None:
-    """Poles and loops of sampled controllers."""
     own = model.sampled
     if own is None:
         return None

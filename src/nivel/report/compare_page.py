@@ -163,11 +163,8 @@ def _curve(comparison: Comparison, curve: Curve, across: LogAxis, up: LogAxis) -
 
 
 def _told(comparison: Comparison, curve: Curve, row: Row) -> str:
-    """What hovering over a point says."""
-    word, doubt = (
-        "step" if row.step is not None else "tolerance",
-        "" if comparison.is_resolved(row) else ", not resolved",
-    )
+    word = "step" if row.step is not None else "tolerance"
+    doubt = "" if comparison.is_resolved(row) else ", not resolved"
     error = f"error {number(row.motion_error, 2)}{doubt}"
     return f"{curve.label}\n{word} {fineness(row)}: {error} in {seconds(row.loop_seconds)}, {row.steps} steps"
 
@@ -253,7 +250,6 @@ def _title(comparison: Comparison) -> str:
 
 
 def _facts(comparison: Comparison) -> list[str]:
-    """What all cells share."""
     return [
         told.simulated(comparison),
         f"a frame every {seconds(comparison.output_interval)}",

@@ -107,7 +107,6 @@ def trusted(trust: Trust) -> Trusted:
 
 
 def _reached(result: Result) -> str:
-    """How far the run came."""
     time = result.time
     if not len(time):
         return "nothing was computed"

@@ -111,7 +111,6 @@ def _figures(table: Table) -> Iterator[Figures]:
 
 
 def _reasons(table: Table) -> list[tuple[int, str, str]]:
-    """Variants that came to no end."""
     return [(int(k), table.outcome[k], table.reason[k]) for k in np.flatnonzero(~table.ended)]
 
 

@@ -49,11 +49,8 @@ class Manoeuvre(Struct):
         yaw = np.unwrap(np.arctan2(2.0 * (e0 * e3 + e1 * e2), 1.0 - 2.0 * (e2**2 + e3**2)))
         roll = np.arctan2(2.0 * (e0 * e1 + e2 * e3), 1.0 - 2.0 * (e1**2 + e2**2))
         c, s = np.cos(yaw), np.sin(yaw)
-        along, across = (
-            (each[:, 0] * c + each[:, 1] * s for each in (v, a)),
-            (each[:, 1] * c - each[:, 0] * s for each in (v, a)),
-        )
-        (vx, ax), (vy, ay) = along, across
+        vx, ax = (each[:, 0] * c + each[:, 1] * s for each in (v, a))
+        vy, ay = (each[:, 1] * c - each[:, 0] * s for each in (v, a))
         rate = run.array("angular_velocity")[:, body, 2]
         return cls(name, run.time, run.array(f"control.{driver}"), vx, vy, ax, ay, yaw, rate, roll, p[:, 0], p[:, 1])
 

@@ -386,7 +386,6 @@ TYPES: Final[dict[str, tuple[type, ...]]] = {
 
 
 def _refuse_other_types(record: Item | Trust, types: Mapping[str, str]) -> None:
-    """Raise TypeError where a value is none of its type."""
     for name, kind in types.items():
         value = getattr(record, name)
         names = value if isinstance(value, tuple) and "str" in kind else ()

@@ -86,7 +86,6 @@ def add_components(builder: SystemBuilder) -> None:
 
 
 def _add_pressures(builder: SystemBuilder) -> None:
-    """One row for each node."""
     builder.elements.add(begin_ledger, [])
     given = {each.name: each for each in builder.machine.hydraulics if isinstance(each, Tank)}
     for k, node in enumerate(builder.circuit.nodes.values()):

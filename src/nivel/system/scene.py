@@ -286,7 +286,6 @@ def _sizes(cylinder: HydraulicCylinder | TelescopicCylinder) -> list[float]:
 
 
 def _wheels(machine: MachineRecord, rope: Rope, radii: tuple[float, ...]) -> dict[str, Any]:
-    """How a rope runs around wheels."""
     way = nivel.elements.forces.ropes.way_around(rope, radii, [as_placed(machine, end) for end in rope.ends])
     turns = [axes_as_placed(machine, body) for body, _ in way.places]
     carrier = nivel.elements.forces.ropes.first_wheel(radii)
@@ -317,7 +316,6 @@ def _ends(builder: SystemBuilder, force: Force) -> tuple[int, ...] | None:
 
 
 def _centre(builder: SystemBuilder, name: str) -> int:
-    """Marker at the centre of the shape of a body or a marker."""
     touching = builder.machine.touching[name]
     shape = touching.shape
     centre = None if shape is None or isinstance(shape, Mesh) else shape.centre

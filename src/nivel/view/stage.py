@@ -140,7 +140,6 @@ class Acted(Struct):
 
 
 def _between(force: dict[str, Any], known: dict[str, Any], places: dict[str, int]) -> Force:
-    """A force with two ends."""
     kind, ends = str(force["type"]), [str(body) for body in force["bodies"]]
     facts = [("type", kind), ("first body", ends[0]), ("second body", ends[1])]
     axis = triple(force["axis"]) if "axis" in force else None
@@ -151,7 +150,6 @@ def _between(force: dict[str, Any], known: dict[str, Any], places: dict[str, int
 
 
 def _winding(wheels: dict[str, Any]) -> Winding:
-    """How a rope runs around wheels."""
     first, last = wheels["fixed"]
     radii, arcs = ([float(each) for each in wheels[key]] for key in ("radii", "arcs"))
     return Winding(triple(wheels["axis"]), int(wheels["carrier"]), radii, arcs, (triple(first), triple(last)))

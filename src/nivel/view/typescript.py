@@ -34,7 +34,6 @@ def _interface(record: type) -> list[str]:
 
 
 def _type(hint: Any) -> str:
-    """A Python type in TypeScript."""
     origin, arguments = get_origin(hint), get_args(hint)
     if origin is Literal:
         return " | ".join(f'"{word}"' if isinstance(word, str) else str(word) for word in arguments)

@@ -89,17 +89,8 @@ def _values_of(machine: MachineRecord, system: System) -> Iterator[tuple[Actuato
     for k, actuator in enumerate(each for each in machine.hydraulics if isinstance(each, Actuator)):
         assert row is not None
         e = int(elements.span[row, 0]) + k
-        yield (
-            actuator,
-            float(system.record.coordinates.value[elements.columns[e, 2]]),
-            float(elements.number[e, ORIGIN]),
-        )
-
-
-def _shares_of_strokes(machine: MachineRecord, system: System) -> Iterator[tuple[Actuator, float]]:
-    """Every actuator with the share of its stroke in the state last evaluated."""
-    for actuator, value, origin in _values_of(machine, system):
-        yield actuator, (value - origin) / actuator.way
+        value = float(system.record.coordinates.value[elements.columns[e, 2]])
+        yield actuator, value, float(elements.number[e, ORIGIN])
 
 
 def _refuse_strokes(machine: MachineRecord, system: System) -> None:
@@ -185,7 +176,8 @@ class _Start:
         """Nodes between which actuators and motors carry loads, each pair once."""
         index = {node.name: k for k, node in enumerate(self.nodes)}
         out: dict[tuple[int, int | None], _Pair] = {}
-        strokes = {each.name: share for each, share in _shares_of_strokes(self.machine, self.system)}
+        values = _values_of(self.machine, self.system)
+        strokes = {each.name: (value - origin) / each.way for each, value, origin in values}  # their shares
         for each in self.machine.hydraulics:
             at_end = each.name in strokes and min(strokes[each.name], 1.0 - strokes[each.name]) <= BEYOND
             if isinstance(each, Actuator):
@@ -397,6 +389,5 @@ def _has_state(node: Node) -> bool:
 
 
 def _states_of_circuits(system: System) -> list[int]:
-    """Numbers of the states that belong to components."""
     names = {node.owner for node in system.nodes} | {""}
     return [k for k, fact in enumerate(system.states) if fact.name.partition(".")[0] in names or "." in fact.name]

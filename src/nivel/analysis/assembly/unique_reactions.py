@@ -204,7 +204,8 @@ def unique_reactions(motion: MotionEquations, *, loaded: bool = False) -> tuple[
     system = motion.system
     if system.machine_rows * 6 * system.body_count > LARGEST:
         return ()
-    free = _free_multipliers(motion)
+    # multipliers without any effect (K, k), lengths and moments in units of the machine's length
+    free = dependent_rows(scaled_jacobian(motion))[1] / row_lengths(motion)[:, None]
     if not free.shape[1]:
         return ()
     wrenches = [_wrenches(motion, k) for k in range(len(system.joints))]
@@ -251,12 +252,6 @@ def _multipliers_by_way(motion: MotionEquations, free: Array) -> Array | None:
         return None
     given = np.linalg.solve(free[ways], lam[ways][:, :, None])[:, :, 0]
     return lam - given @ free.T
-
-
-def _free_multipliers(motion: MotionEquations) -> Array:
-    """(K, k) multipliers without any effect, lengths and moments in units of the machine's length."""
-    _, N = dependent_rows(scaled_jacobian(motion))
-    return N / row_lengths(motion)[:, None]
 
 
 def _wrenches(motion: MotionEquations, k: int) -> tuple[Array, tuple[int, int]]:

@@ -29,7 +29,7 @@ class Carrying:
             self._ways[child] = (
                 self._sliding(n, nivel.elements.joints.on_beams.stretches(rail, turned=turned))
                 if rail
-                else self._hanging(n, parent)
+                else tuple((where, nodes | {n}) for where, nodes in self._of(parent))
             )
 
     def of(self, body: int) -> frozenset[int]:
@@ -42,9 +42,6 @@ class Carrying:
 
     def _of(self, body: int) -> tuple[Way, ...]:
         return self._ways.get(body, ((frozenset(), frozenset()),))
-
-    def _hanging(self, n: int, parent: int) -> tuple[Way, ...]:
-        return tuple((where, nodes | {n}) for where, nodes in self._of(parent))
 
     def _sliding(self, n: int, places: Iterable[tuple[int, ...]]) -> tuple[Way, ...]:
         out: list[Way] = []

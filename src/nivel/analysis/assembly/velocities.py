@@ -41,7 +41,8 @@ def consistent_velocities(
     """
     system, record = motion.system, motion.system.record
     count, rows = system.body_count, slice(0, system.machine_rows)
-    before = _velocities(system)
+    bodies = system.record.bodies
+    before = np.hstack([bodies.Rdot[:count] / system.size, bodies.omega_b[:count]])  # Ṙ in lengths of the machine
     chosen, rates = [q for _, q, _ in wishes.rates], np.array([rate for _, _, rate in wishes.rates])
     units = [1.0 if name.partition(".")[2].startswith("angle") else system.size for name, _, _ in wishes.rates]
     scale = np.append(record.constraints.scale[rows], units)
@@ -133,12 +134,6 @@ def whitened(system: System, free: NDArray[np.bool_], lightest: float) -> Array:
     both = free[:, :, None] & free[:, None, :]
     L = np.linalg.cholesky(np.where(both, M, np.eye(6)))
     return np.where(both, np.swapaxes(np.linalg.inv(L), 1, 2), 0.0)
-
-
-def _velocities(system: System) -> Array:
-    """(B, 6) of the state last evaluated: Ṙ in lengths of the machine, ω̄."""
-    bodies, count = system.record.bodies, system.body_count
-    return np.hstack([bodies.Rdot[:count] / system.size, bodies.omega_b[:count]])
 
 
 def _set_velocities(motion: MotionEquations, t: float, y: Array, velocities: Array) -> Array:

@@ -73,7 +73,6 @@ def solve(machine: MachineRecord, grid: Grid, listener: Listener, journal: Journ
 
 
 def _row_of(solution: Solution | None) -> dict[str, Any]:
-    """A solution as the row of a journal."""
     if solution is None:
         return {"reference": None}
     scales = [solution.size, solution.kinetic_energy]
@@ -236,13 +235,8 @@ def compare(
         note=note,
         nivel_version=nivel.__version__,
     )
-    return _trusted(_spread(_orders(comparison), bench.finest))
-
-
-def _trusted(comparison: Comparison) -> Comparison:
-    """`comparison` with its trust report."""
-    subject = Methods(outcome=comparison.outcome, references=comparison.references, rows=comparison.rows)
-    return replace(comparison, trust=assess(subject))
+    done = _spread(_orders(comparison), bench.finest)
+    return replace(done, trust=assess(Methods(outcome=done.outcome, references=done.references, rows=done.rows)))
 
 
 class _Bench:

@@ -123,7 +123,6 @@ def _found(expression: Expression, end: float) -> Iterator[float]:
 
 
 def _holds(expression: Expression, time: float) -> bool:
-    """Whether a function has a value at a corner."""
     if expression.signals:
         return True
     try:

@@ -254,7 +254,6 @@ def unit_of(machine: Model, path: str) -> str:
 
 
 def _kind(parts: Sequence[Any]) -> Any:
-    """The kind of quantity that an annotation names."""
     for part in parts:
         if isinstance(part, Quantity):
             return part.kind

@@ -340,7 +340,6 @@ def _nothing(_: instant.Instant) -> instant.Lanes:
 
 
 def _normalised(own: instant.Instant, q: Array) -> Array:
-    """q with Euler parameters of unit length."""
     out = q.copy()
     for place, axis in own.place.tolist():
         if axis == 0:

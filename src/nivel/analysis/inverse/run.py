@@ -206,7 +206,7 @@ def inverse(methods: Methods, actuation: Actuation, motion: Result, *, listener:
     moment = at_start(methods)
     instant = Instant(moment.motion, 0.0, moment.y)
     names = list(instant.system.layout.coordinates["joint_coordinate"])
-    index = instant.record.joints.coordinate.astype(np.int64)
+    index, constraints = instant.record.joints.coordinate.astype(np.int64), instant.record.constraints
     places = [int(index[names.index(each.coordinate)]) for each in actuation.actuators]
     times, efforts, rates, missing, shares, worst = [], [], [], [], [], Counter[str]()
     limited, rank, freedoms, open_by = False, 0, 0, 0.0
@@ -214,7 +214,8 @@ def inverse(methods: Methods, actuation: Actuation, motion: Result, *, listener:
         _count_turns(instant, state, index)
         found, b, speed, named = _at(instant, state, actuation, places, index, names)
         limited |= found.limited
-        open_by = max(open_by, _violation(instant))
+        violation = (constraints.C / constraints.scale)[: instant.system.machine_rows]
+        open_by = max(open_by, float(np.max(np.abs(violation), initial=0.0)))
         rank, freedoms = max(rank, found.rank), max(freedoms, len(b))
         times.append(state.time)
         efforts.append(found.efforts)
@@ -297,12 +298,6 @@ def _where(columns: Array, missing: Array, actuators: list[int], names: list[str
     acting = [k for k in best if k in actuators]
     chosen = acting[0] if acting else int(best[np.argmax(sizes[best])])
     return names[chosen], float(columns[:, chosen] @ missing / sizes[chosen] ** 2)
-
-
-def _violation(instant: Instant) -> float:
-    """How far the constraints are open at the state last evaluated, as a share of their scales."""
-    constraints, count = instant.record.constraints, instant.system.machine_rows
-    return float(np.max(np.abs(constraints.C / constraints.scale)[:count], initial=0.0))
 
 
 def _jacobians(instant: Instant, index: NDArray[np.int64]) -> tuple[Array, Array]:

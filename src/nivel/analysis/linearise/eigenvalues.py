@@ -190,7 +190,8 @@ def eigenvalues(
         empty = np.zeros((0, 0), dtype=np.complex128)
         return Eigen(np.zeros(0, dtype=np.complex128), np.zeros(0, dtype=bool), empty, empty, (), np.zeros(0))
     noise, drift = (np.zeros_like(A) if each is None else each for each in (noise, drift))
-    scaled = _without_round_off(np.where(np.abs(A) > noise, A, 0.0) * scale / scale[:, None])
+    scaled = np.where(np.abs(A) > noise, A, 0.0) * scale / scale[:, None]
+    scaled = np.where(np.abs(scaled) > NOTHING * np.abs(scaled).max(axis=1, keepdims=True), scaled, 0.0)
     if apart is None:
         values, left, right, known = _of(scaled, (noise + drift) * scale / scale[:, None])
         right, left = scale[:, None] * right, left / scale[:, None]
@@ -207,10 +208,6 @@ def eigenvalues(
     left = left / np.where(sure, overlap.conj(), 1.0)
     zero = values == 0.0
     return Eigen(values, zero, right, left, _moved(scaled, right[:, zero] / scale[:, None]), known)
-
-
-def _without_round_off(A: Array) -> Array:
-    return np.where(np.abs(A) > NOTHING * np.abs(A).max(axis=1, keepdims=True), A, 0.0)
 
 
 def _of(A: Array, unsure: Array) -> tuple[Complex, Complex, Complex, Array]:

@@ -80,7 +80,9 @@ def linear_model(
     moment = at_start(methods, slide) if posture is None else at_posture(methods, posture, slide)
     moment = rotating(moment) if settings.about == ROTATION else moment
     instant = Instant(moment.motion, moment.t, moment.y)
-    _refuse_large(instant)
+    if instant.n > MOST:
+        message = f"{instant.n} velocities are more than the {MOST} of which full matrices are made: use `nivel statics --modes`"
+        raise ModelError(Fault.at("linearise", message))
     catalogue = Catalogue(machine, instant, opened)
     inputs, outputs = catalogue.chosen(settings.inputs, settings.outputs)
     pressures = pressure_states(instant.system.states, catalogue.outputs)
@@ -174,12 +176,6 @@ def _no_modes(settings: LineariseSettings, *, moves: bool, jumps: bool) -> str:
     return f"no modes of motion about {settings.words} are given, because {why}: {remedy}"
 
 
-def _refuse_large(instant: Instant) -> None:
-    if instant.n > MOST:
-        message = f"{instant.n} velocities are more than the {MOST} of which full matrices are made: use `nivel statics --modes`"
-        raise ModelError(Fault.at("linearise", message))
-
-
 def _states(instant: Instant, reduction: Reduction) -> _States:
     names = velocity_names(instant.system)
     places, rates = ([names[instant.free[k]] for k in each] for each in reduction.chosen)
@@ -238,7 +234,6 @@ def _with_pressures(
 
 
 def _unrest_of_samples(machine: MachineRecord, instant: Instant) -> list[str]:
-    """Why samples change a machine at rest."""
     samples = samples_of(instant)
     return unrest(instant, samples, held_values(machine, instant)) if samples else []
 
@@ -303,7 +298,6 @@ def _shapes(instant: Instant, reduction: Reduction, found: Eigen, signs: Array) 
 
 
 def _zeros(found: Eigen, states: _States) -> tuple[str, ...]:
-    """Sentences on the eigenvalues that are exactly zero."""
     out = []
     single = [states.names[group[0]] for group in found.zeros if len(group) == 1]
     if single:

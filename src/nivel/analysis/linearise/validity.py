@@ -155,10 +155,8 @@ def let_slide(motion: MotionEquations, t: float, y: Array) -> frozenset[str]:
     for k, (index, n) in enumerate(zip(friction.columns.tolist(), friction.number, strict=True)):
         if index[columns.MODEL] != columns.STICTION or index[columns.ROW] != NONE:
             continue
-        rate, outputs = (
-            record.coordinates.rate[index[columns.COORDINATE]],
-            record.outputs.value[index[columns.OUTPUT] :],
-        )
+        rate = record.coordinates.rate[index[columns.COORDINATE]]
+        outputs = record.outputs.value[index[columns.OUTPUT] :]
         dry = friction.force[k] + n[columns.VISCOUS] * rate
         if index[columns.WAY] == columns.ONE_WAY:
             if not rate > 0.0 or dry != 0.0:
@@ -169,10 +167,8 @@ def let_slide(motion: MotionEquations, t: float, y: Array) -> frozenset[str]:
             >= (1.0 - EQUAL) * _sliding(n, rate * n[columns.ARM]) * outputs[columns.THIRD] * n[columns.ARM]
         ):
             continue
-        friction.columns[k, columns.MODEL], n[columns.TRANSITION] = (
-            columns.COULOMB,
-            abs(rate) * n[columns.ARM] / SATURATED,
-        )
+        friction.columns[k, columns.MODEL] = columns.COULOMB
+        n[columns.TRANSITION] = abs(rate) * n[columns.ARM] / SATURATED
         out |= {system.frictions[k]}
     return out
 

@@ -311,7 +311,6 @@ def _covariance(J: Array, variance: float) -> tuple[Array, NDArray[np.bool_]]:
 
 
 def _table(evaluations: Evaluations, attributes: Mapping[str, Any]) -> xarray.Dataset:
-    """All variants with their sums of squares."""
     evaluations.made = [
         replace(each, outputs=np.array([float(each.outputs @ each.outputs)])) for each in evaluations.made
     ]

@@ -157,7 +157,6 @@ class Search:
         return np.where(np.isfinite(slope), slope, 0.0)
 
     def _constraints(self) -> list[Any]:
-        """Constraints as the method takes them."""
         out: list[Any] = []
         for kind, rows, most in (("ineq", self._rows, np.inf), ("eq", self._equal, 0.0)):
             if not rows:

@@ -182,7 +182,6 @@ def most_work(first: float, states: int) -> float:
 
 
 def _of(plan: Plan, machine: MachineRecord) -> Plan:
-    """The same run of another machine."""
     methods = methods_of(machine, plan.methods.formulation, plan.methods.coordinates)
     other = replace(plan, machine=machine, methods=methods)
     return other if plan.methods.stiff is None else with_stiff(other)

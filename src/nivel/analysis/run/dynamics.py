@@ -356,7 +356,6 @@ def jam_of(prepared: Prepared, settings: RunSettings, run: Run) -> Jam | None:
 
 
 def _branches(prepared: Prepared, run: Run) -> bool:
-    """Whether the motion branches beside the last accepted state."""
     return bool(branching_joints(prepared, float(run.clock[of_run.ACCEPTED]), run.previous))
 
 

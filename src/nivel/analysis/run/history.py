@@ -120,11 +120,8 @@ def _clock(prepared: Prepared, settings: RunSettings) -> Array:
     clock = np.zeros(of_run.CLOCKS)
     step = _step_ratio(prepared.motion.system.record.sampled, settings.step)
     clock[of_run.STEP_TICKS], clock[of_run.TICK_RATE] = step.numerator, step.denominator
-    clock[of_run.STEP], clock[of_run.END], clock[of_run.INTERVAL] = (
-        settings.step,
-        settings.duration,
-        settings.output_interval,
-    )
+    clock[of_run.STEP], clock[of_run.END] = settings.step, settings.duration
+    clock[of_run.INTERVAL] = settings.output_interval
     clock[of_run.TOLERANCE], clock[of_run.LARGEST] = settings.tolerance or 0.0, settings.largest_step
     clock[of_run.SHOWN], clock[of_run.HORIZON] = -np.inf, np.inf
     clock[of_run.OPEN_LIMIT] = _open_limit(prepared, settings)
@@ -286,7 +283,7 @@ def _scales(system: System, y: Array, duration: float) -> Array:
     mass = float(system.record.bodies.mass.sum())
     energies = (
         float(system.record.control.energy[0]),
-        _weight_energy(system),
+        mass * float(np.linalg.norm(system.record.bodies.gravity)) * system.size,
         0.5 * mass * (system.size / duration) ** 2,
     )
     energy = max(*energies, 1e-300 if mass else JOULE)
@@ -295,25 +292,14 @@ def _scales(system: System, y: Array, duration: float) -> Array:
     scale = np.array([floors.get(unit, 0.0) for unit in units])
     scale[units == "kg^0.5 m"] = system.modal_sizes()
     scale[units == "kg^0.5 m/s"] = system.modal_sizes() / duration
-    scale[len(scale) - len(system.start_of_states) :] = [
-        *(UNSEEN if fact.integral else fact.scale for fact in system.states),
-        energy,
-        energy,
-    ]
+    of_states = [UNSEEN if fact.integral else fact.scale for fact in system.states]
+    scale[len(scale) - len(system.start_of_states) :] = [*of_states, energy, energy]
     return np.where(_raised(system, y), np.maximum(scale, np.abs(y)), scale)
 
 
 def _raised(system: System, y: Array) -> NDArray[np.bool_]:
     """Whether the scale of each entry of y follows its largest value."""
     out = np.ones(len(y), dtype=bool)
-    out[len(y) - len(system.start_of_states) :] = [
-        *(fact.relative and not fact.integral for fact in system.states),
-        True,
-        True,
-    ]
+    of_states = [fact.relative and not fact.integral for fact in system.states]
+    out[len(y) - len(system.start_of_states) :] = [*of_states, True, True]
     return out
-
-
-def _weight_energy(system: System) -> float:
-    bodies = system.record.bodies
-    return float(bodies.mass.sum() * np.linalg.norm(bodies.gravity) * system.size)

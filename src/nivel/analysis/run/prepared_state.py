@@ -400,7 +400,6 @@ class Placing:
 
 
 def _absolute(system: System, posture: Mapping[str, Array], states: Array) -> Array:
-    """The state in absolute coordinates."""
     q = np.hstack([posture["position"], posture["orientation"]])
     omega_b = np.einsum("bij,bi->bj", rotation_matrices(q[:, 3:]), posture["angular_velocity"])
     y = system.state(q.ravel(), posture["velocity"], omega_b)

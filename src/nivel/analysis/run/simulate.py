@@ -97,7 +97,9 @@ def second_choice(
     others = choices.others()
     while _open_lines(choices.best[1]) and (choice := next(others, None)) is not None:
         if choice.finished.outcome != "done" or choice.verified is None:
-            tries.append(Try(in_words(choice.plan), {}, _why_not(choice)))
+            failed = choice.finished.failure is not None
+            why = "failed" if failed else "was given up, as it took too much work"
+            tries.append(Try(in_words(choice.plan), {}, why))
             continue
         choices.judged.append((choice, assess(choice.run)))
         tries.append(_tried(*choices.judged[-1]))
@@ -200,7 +202,6 @@ class Choices:
 
 
 def _work_of(choice: attempts.Attempt) -> int:
-    """Work of a run and of the one that verifies it."""
     return choice.finished.work + (choice.verified.finished.work if choice.verified is not None else 0)
 
 
@@ -251,11 +252,6 @@ def in_words(plan: Plan) -> str:
 def _words(name: str, *, tolerance: float | None = None, step: float = 0.0) -> str:
     by = f"tolerance {tolerance:.0e}" if tolerance is not None else f"steps of {seconds(step)}"
     return f"{name}, {by.replace('e-0', 'e-')}"
-
-
-def _why_not(choice: attempts.Attempt) -> str:
-    failure = choice.finished.failure
-    return "failed" if failure is not None else "was given up, as it took too much work"
 
 
 def _open_lines(trust: Trust) -> list[str]:

@@ -532,7 +532,6 @@ class Simulation:
         self._observe()
 
     def _close_again(self) -> None:
-        """Close the joints that other lengths have opened."""
         constraints = self._system.record.constraints
         correct, address = self.loop.correct, self._motion.handle.address
         motion, time = self._motion, self._clock[of_run.TIME]

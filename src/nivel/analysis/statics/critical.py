@@ -70,7 +70,8 @@ def _locate(
         if share not in known:
             begin = equations.moved(before.state, chord * share)
             known[share] = equilibrate(equations, begin, iteration, border)
-        value = _eigenvalue(known[share].tangent, number)
+        values, _, hidden = _values(known[share].tangent, number)
+        value = float(values[max(0, number - hidden)])
         signs[share] = float(np.sign(value))
         return value
 
@@ -120,7 +121,6 @@ def _bracket(signs: dict[float, float]) -> tuple[float, float]:
 
 
 def _difference(equations: StaticEquations, a: Rest, b: Rest) -> Change:
-    """The change that leads from a to b."""
     psi = np.zeros(equations.n)
     place = equations.place
     plain = place[:, 1] == NONE
@@ -138,11 +138,6 @@ def _values(tangent: Tangent, number: int) -> tuple[Array, Array, int]:
     """Eigenvalues next to zero with their directions, and how many negative ones are not among them."""
     values, vectors = lowest(tangent, number + 3, tangent.M, nearest=True)
     return values, vectors, max(0, unstable_directions(tangent) - int(np.sum(values < 0.0)))
-
-
-def _eigenvalue(tangent: Tangent, number: int) -> float:
-    values, _, hidden = _values(tangent, number)
-    return float(values[max(0, number - hidden)])
 
 
 def _nearest(tangent: Tangent, number: int) -> Array:

@@ -118,17 +118,12 @@ def by_arc_length(equations: StaticEquations, first: Point, steps: Steps) -> Ite
             raise EquilibriumError(f"the path has not come to its end after {steps.most} steps", point.state)
         direction = after
         longer = length * min(max(float(np.sqrt(WANTED / found.iterations)), 1.0 / LONGER), LONGER)
-        length = min(longer, _longest(direction, full, reach))
+        # time goes on by `full` at most, and every part by `reach`
+        length = min(longer, 1.0 / max(abs(direction.t) / full, _largest(direction) / reach))
 
 
 def _largest(direction: Change) -> float:
     return float(np.max(np.abs(direction.q), initial=0.0))
-
-
-def _longest(direction: Change, full: float, reach: float) -> float:
-    """The longest step in this direction: time goes on by `full` at most, and every part by `reach`."""
-    by_time, by_motion = abs(direction.t) / full, _largest(direction) / reach
-    return 1.0 / max(by_time, by_motion)
 
 
 def _land(equations: StaticEquations, before: Found, after: Found, steps: Steps) -> Found:

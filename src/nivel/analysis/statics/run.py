@@ -283,10 +283,8 @@ def _with_other_elements(
     machine: MachineRecord, walk: Walk, prepared: Prepared, result: Result, listener: Listener
 ) -> Compared | None:
     """The same equilibria with other elements, and what follows from them for the result; None where there are no beams."""
-    pair, settings = (
-        other_elements(machine, doubles=sum(len(each.shares) for each in machine.beams) <= MOST_NODES),
-        walk.settings,
-    )
+    settings = walk.settings
+    pair = other_elements(machine, doubles=sum(len(each.shares) for each in machine.beams) <= MOST_NODES)
     if pair is None:
         return None
     frame, names = Memory(), prepared.motion.system.layout.coordinates["body"]

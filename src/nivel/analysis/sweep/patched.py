@@ -221,7 +221,7 @@ def _learned(base: Model, paths: tuple[str, ...], xs: Array, *, judged: bool) ->
         if first.plan.settings != other.plan.settings or first.prepared.path != other.prepared.path:
             raise UnsuitedError("its structure or its method varies")
         if judged:
-            if fact := other_fact(first.prepared, other.prepared):
+            if fact := _other(first.prepared, other.prepared, ""):
                 raise UnsuitedError(f"`{fact}` varies")
         elif not _same(*(each.prepared.assembly.y[:places] for each in (first, other))):
             raise UnsuitedError("the places where its bodies are assembled vary")
@@ -359,13 +359,8 @@ class PatchedRuns:
 OWN: Final = ("record", "machine", "beams", "kernels", "twin")
 
 
-def other_fact(a: Prepared, b: Prepared) -> str:
-    """The first fact in which two machines differ, as `assembly.y`; empty where they do so in their memory alone, and in how they are
-    written."""
-    return _other(a, b, "")
-
-
 def _other(a: Any, b: Any, name: str) -> str:
+    """The first fact in which two differ, as `assembly.y`; empty where they do so in their memory alone, and in how they are written."""
     if a is b:
         return ""
     if is_dataclass(a) and type(a) is type(b):

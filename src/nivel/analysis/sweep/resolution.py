@@ -187,7 +187,6 @@ def _inside(parameter: Any) -> float:
 
 
 def _check_settings(machine: Model, analysis: str, settings: Mapping[str, Any]) -> None:
-    """Raise ModelError where the analysis has no such settings."""
     own = {"duration": machine.simulation.duration} if analysis == "statics" else {}
     settings_of(SETTINGS[analysis], "settings", {**own, **settings})
 

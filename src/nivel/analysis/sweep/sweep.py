@@ -134,7 +134,6 @@ def _compute(jobs: Sequence[engines.Job], engine: Engine, keep: Heard) -> int:
 def _subject(
     values: Sequence[Mapping[str, Any]], runs: Sequence[VariantRun], task: Task, *, interrupted: bool
 ) -> Sweep:
-    """The runs as their trust report sees them."""
     names = (", ".join(f"{path} = {value}" for path, value in each.items()) for each in values)
     seen = tuple(
         Variant(name, run.outcome, run.reason, run.verdict, run.verified, run.headline)

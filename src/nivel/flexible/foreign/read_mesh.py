@@ -107,7 +107,6 @@ class _Input:
         return mesh
 
     def _begin(self, card: Card) -> None:
-        """What a keyword alone says."""
         self.pending, self.lines, line = [], [], card.line
         self.assembled |= card.keyword in ("PART", "INSTANCE", "ASSEMBLY")
         self.out.springs |= card.keyword in STORING or card.name("TYPE") in SPRINGS
@@ -167,7 +166,6 @@ class _Input:
                     self.out.stressless.append(problem)
 
     def _bind(self, card: Card) -> None:
-        """Groups of nodes that move as rigid bodies."""
         match card.keyword:
             case "RIGID BODY":
                 rotation = None if "ROTNODE" not in card.options else _number(card, "ROT NODE")
@@ -255,7 +253,6 @@ class _Input:
 
 
 def _set(sets: dict[str, list[int]], name: str, card: Card, parts: list[str]) -> None:
-    """Add the members on a line to the set."""
     members = sets.setdefault(name, [])
     if "GENERATE" in card.options:
         first, last, step = [int(part) for part in [*parts, "1"][:3]]

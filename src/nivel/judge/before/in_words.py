@@ -56,7 +56,6 @@ def driver_in_words(driver: Driver) -> str:
 
 
 def _pose_in_words(driver: Driver) -> str:
-    """The functions of a driven pose."""
     said = []
     if driver.position is not None:
         said.append(f"position {', '.join(map(function_in_words, driver.position))}")

@@ -150,7 +150,6 @@ def stiction_over_steps(machine: MachineRecord) -> Iterator[Fault]:
 
 
 def _key_of_model(force: ForceElement) -> str:
-    """Where a force says how its friction goes."""
     return "model" if isinstance(force, Friction) else "friction_model" if isinstance(force, Contact) else "type"
 
 

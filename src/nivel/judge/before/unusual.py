@@ -97,7 +97,6 @@ def _idle(element: Record, place: str) -> Iterator[Finding]:
 
 
 def _unread(machine: MachineRecord) -> Iterator[Finding]:
-    """Inputs that nothing reads."""
     read = {path for each in machine.functions for path in each.function.signals} if machine.inputs else set()
     read |= {path for block in machine.control for part in block.parts for path in signals_read(part.function)}
     for given in machine.inputs:

@@ -75,7 +75,6 @@ def _of_coupling(coupling: Any, index: Index, place: Place) -> Faults:
 
 
 def _of_other(force: Any, found: tuple[str, str] | None, index: Index, place: Place) -> Faults:
-    """The second coordinate of what acts between two."""
     rims = entry(force, "type") == "belt-drive"
     if rims:
         yield from _find(entry(force, "coordinate"), index, "angle", (*place[:-1], "coordinate"))
@@ -138,7 +137,6 @@ def _driven_twice(
 
 
 def _motions(driver: Any) -> Iterator[tuple[str, str]]:
-    """What a driver moves a marker along and about."""
     whole = [key for key in ("position", "orientation") if entry(driver, key) is not None]
     if not whole:
         yield str(entry(driver, "along")), str(entry(driver, "about"))

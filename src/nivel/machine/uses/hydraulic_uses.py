@@ -260,7 +260,6 @@ def _of_angle(component: Any, index: Index, place: Place) -> Faults:
 
 
 def _of_engine(component: Any, index: Index, place: Place) -> Faults:
-    """The engine that turns a pump."""
     name = entry(component, "engine")
     if isinstance(name, str) and entry(index.hydraulics.get(name), "type") != "engine":
         known = [each for each, its in index.hydraulics.items() if entry(its, "type") == "engine"]

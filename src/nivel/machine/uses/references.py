@@ -162,7 +162,6 @@ def _of_force(force: Any, index: Index, place: Place) -> Faults:
 
 
 def _of_wheel(wheel: Any, plane: Any, index: Index, place: Place) -> Faults:
-    """Bodies of the two markers of a tyre."""
     if index.body_of(wheel) == GROUND:
         yield (*place, "wheel"), f"the marker is on `{GROUND}`: a wheel there does not turn"
     elif index.body_of(wheel) is not None and index.body_of(wheel) == index.body_of(plane):
@@ -236,7 +235,6 @@ def _of_shape(body: Any, index: Index, allowed: tuple[str, ...], place: Place) -
 
 
 def _carrier(name: str, index: Index) -> str:
-    """The body on which the shape of a body or a marker is."""
     return name if name in index.bodies else index.markers.get(name, name)
 
 
@@ -282,7 +280,6 @@ def _of_joint(joint: Any, index: Index, place: Place) -> Faults:
 
 
 def _of_pair(element: Any, index: Index, place: Place, needs: str) -> Faults:
-    """The two bodies or markers between which something acts."""
     for at, body in enumerate(as_list(entry(element, "bodies"))):
         yield from _unknown_body(body, index, (*place, "bodies", at))
     ends = as_list(entry(element, "markers"))

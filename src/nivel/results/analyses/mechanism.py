@@ -159,7 +159,6 @@ def _slide(result: Result, name: str) -> Array | None:
 
 
 def _joints(result: Result) -> dict[str, dict[str, Any]]:
-    """The joints of the machine by their names."""
     return {each["name"]: each for each in json.loads(str(result.attributes.get("scene", "{}"))).get("joints", [])}
 
 

@@ -95,14 +95,8 @@ class CInstance(OwnUnit[CFacts, CFunction]):
         number = self.record.number
         if not number[kernel.FAULT]:
             return ""
-        which = next(
-            (
-                name
-                for name, value in zip(self.facts.outputs, self.record.outputs, strict=True)
-                if not np.isfinite(value)
-            ),
-            "",
-        )
+        outputs = zip(self.facts.outputs, self.record.outputs, strict=True)
+        which = next((name for name, value in outputs if not np.isfinite(value)), "")
         status = int(number[kernel.STATUS])
         said = {
             kernel.RETURNED: f"returned {status - (status >> 31 << 32)}",

@@ -166,7 +166,6 @@ class UnitProcess(Unit[UnitFacts, Fmu]):
         return FAILED if self._said else 0
 
     def _ended(self) -> str:
-        """How the process came to its end."""
         process = self._process
         code = process.wait() if process is not None else 0
         self.end()

@@ -36,15 +36,8 @@ def sensor_columns(builder: SystemBuilder) -> list[list[int]]:
                         assert sensor.coordinate is not None  # the record was checked
                         assert sensor.quantity is not None
                         joint, name = resolve(sensor.coordinate, builder.machine.joints)
-                        columns.append(
-                            _scalar(
-                                builder,
-                                sensor.name,
-                                sensor.quantity,
-                                scalars,
-                                builder.joint_coordinates[f"{joint}.{name}"],
-                            )
-                        )
+                        coordinate = builder.joint_coordinates[f"{joint}.{name}"]
+                        columns.append(_scalar(builder, sensor.name, sensor.quantity, scalars, coordinate))
                     case "distance" | "angle" as form:
                         ends = sensor.distance or sensor.angle
                         assert ends is not None  # the record was checked

@@ -78,7 +78,6 @@ def _say_error(found: Accuracy) -> Item:
 
 
 def _look_at_end(run: Run) -> Verified | None:
-    """Where the second run ended before the first."""
     return Verified(run.finer.until, run.finer.ended) if run.finer.ended else None
 
 

@@ -21,7 +21,6 @@ SHOWN = 5  # contacts of which each has a line
 
 
 def _look_for_passing(run: Run) -> list[Passed]:
-    """The pairs of spheres and of hulls that passed each other."""
     return run.passing.passed[:SHOWN]
 
 

@@ -21,7 +21,6 @@ class Steadiness(Struct):
 
 
 def _look_at_steadiness(subject: Linearisation) -> Steadiness:
-    """As the equations are at later moments of the motion."""
     return Steadiness(subject.moves, subject.unsteady)
 
 

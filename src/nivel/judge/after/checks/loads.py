@@ -166,7 +166,6 @@ class Passed(Struct):
 
 
 def _look_at_events(run: Run) -> list[Passed]:
-    """The first unseen pass of each event."""
     steps = steps_of_run(run) if run.machine.events else None
     return [] if steps is None else list(_unseen(run, steps))
 

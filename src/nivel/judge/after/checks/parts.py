@@ -188,7 +188,6 @@ def _bodies_of(machine: MachineRecord, name: str, words: Mapping[str, set[str]])
 
 
 def _words(element: Any) -> set[str]:
-    """All words in the texts of an element."""
     found: set[str] = set()
     left: list[Any] = [element]
     while left:

@@ -188,11 +188,8 @@ def _errors(run: Run, estimate: Estimate, group: Group, scales: _Scales) -> Iter
         magnitude = _joined(variable, np.max(np.abs(result.array(name)), axis=0, initial=0.0))
         slow = means(run, estimate, name) if second is not None else None
         if slow is not None:
-            mean, error, extents[name] = (
-                slow.mean,
-                slow.error,
-                np.minimum(extents[name], _joined(variable, slow.extent)),
-            )
+            mean, error = slow.mean, slow.error
+            extents[name] = np.minimum(extents[name], _joined(variable, slow.extent))
         extent = np.maximum(extents[name], AT_REST * np.maximum(magnitude, natural))
         extent = np.maximum(np.maximum(extent, group.at_rest * largest), states.get(name, 0.0))
         moved = np.broadcast_to(scales.points.get(name, 0.0), extent.shape)
@@ -336,7 +333,6 @@ def _joined(variable: Variable, values: Array) -> Array:
 
 
 def _label(variable: Variable, k: int, run: Run) -> str:
-    """The name of number k of a variable."""
     dims = [dim for dim in variable.dims[1:] if dim != "xyz"]
     if not dims:
         return variable.name

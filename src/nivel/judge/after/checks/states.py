@@ -307,13 +307,8 @@ def _say_battery(found: Charged) -> Item:
     first, last = map(number, found.given)
     charge = f"the charge of {found.drive} is {number(found.charge)} at t = {found.time:.6g} s"
     advice = "give it a larger `capacity` or another `start`, take less from it, or give `voltages` there"
-    return CHARGED.item(
-        "battery",
-        f"Battery: {charge}, its voltages are given from {first} to {last}; {advice}",
-        found.beyond,
-        found.time,
-        found.drive,
-    )
+    said = f"Battery: {charge}, its voltages are given from {first} to {last}; {advice}"
+    return CHARGED.item("battery", said, found.beyond, found.time, found.drive)
 
 
 CHECKS = (

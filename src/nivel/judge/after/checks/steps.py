@@ -137,7 +137,6 @@ class Otherwise(Struct):
 
 
 def _look_between_frames(run: Run) -> Hidden | None:
-    """The worst of all loads and sensors."""
     result, worst = run.result, Hidden("", HIDDEN)
     if len(result.time) > MOST:
         return None
@@ -151,7 +150,6 @@ def _look_between_frames(run: Run) -> Hidden | None:
 
 
 def _curves(result: Result) -> Iterator[tuple[list[str], Curve]]:
-    """Names of some columns and their curves."""
     for name in ("joint_force", "joint_torque"):
         if name in result.variables:
             size = np.linalg.norm(result.array(name), axis=2)
@@ -213,7 +211,6 @@ def _energy(subject: Actuated) -> float:
 
 
 def _of_variable(result: Any, variable: str, off: NDArray[np.float64], positions: bool) -> Iterator[Otherwise]:
-    """The worst number of a variable."""
     values = result.array(variable).reshape(len(result.time), -1)
     off = np.where(off > ROUNDED * np.abs(values).max(initial=0.0), off, 0.0)
     if not off.any():

@@ -69,7 +69,6 @@ def _look_at_reach(subject: subjects.Reach) -> Verification:
 
 
 def _look_at_curve(_: subjects.Curve) -> Verification:
-    """The joints at all places."""
     return Verification(("the closed joints at every position",))
 
 

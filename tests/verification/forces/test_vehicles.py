@@ -1,4 +1,4 @@
-"""Examples of vehicles against the stability triangle and the linear castor."""
+"""Examples of vehicles against the stability triangle, on a table and in a curve, and the linear castor."""
 
 import math
 from pathlib import Path
@@ -28,6 +28,35 @@ def test_a_forklift_tips_over_the_side_of_its_triangle(hardness, off):
     share = pin / (mass * 9.81 * math.sin(tilt))
     tips = math.atan(x / 1.5 * 0.95 / 2 / (z - share * 0.36))
     assert tips * (1.0 - off) < tilt < tips * (1.0 + 1e-3)
+
+
+@pytest.mark.parametrize(("hardness", "step", "off"), [("1", "1 ms", 0.02), ("8", "0.5 ms", 0.01)])
+def test_a_forklift_in_a_curve_tips_over_the_side_of_its_triangle(hardness, step, off):
+    """About the point where it does not slide, at c ahead of the pin and ρ beside it, masses have a_x = v̇ + ω² (c - x), a_y = ω² ρ.
+    Moments about the front contacts, f R ahead of the axle, give the load on the pin, those about the outer one ω²; at the pin the
+    steered wheels take their share of the force across, and push along by tan δ = L/ρ of it. It leans on the outer wheel."""
+    base, beside, pin, circle = 1.5, 0.95 / 2, 0.36, 6.0
+    m, x, z = np.array([[2600.0, 0.55, 0.6], [300.0, 1.8, 1.4], [1200.0, 2.4, 3.0], [80.0, base, 0.34]]).T
+    machine = nivel.load(VEHICLES / "forklift-in-a-curve.yaml", {"parameters.hardness": hardness})
+    run = machine.simulate(step=step, verify=False)
+    assert [event.name for event in run.events] == ["tips"]
+    place, velocity, turning = (run.array(name)[-1] for name in ("position", "velocity", "angular_velocity"))
+    ahead = (place[2] - place[0])[:2] / math.hypot(*(place[2] - place[0])[:2])
+    forward, sideways, turning = (
+        velocity[0, :2] @ ahead,
+        velocity[0, 1] * ahead[0] - velocity[0, 0] * ahead[1],
+        turning[0, 2],
+    )
+    radius, centre, front = forward / turning, -sideways / turning, base + 0.02 * 0.34
+    across = radius * m @ (base - x) / base  # by ω², as the following
+    bears = (m @ ((centre - x) * z) - across * base / circle * pin) / front
+    share = (run.time[-1] - 3.0) / 15.0
+    faster = 2.0 / 15.0 * 6.0 * share * (1.0 - share)
+    rests = 9.81 * m.sum() - m @ (9.81 * (front - x) + faster * z) / front
+    lean = rests / (float(hardness) * 2e6) / 0.95  # all of it on the outer wheel
+    leans = lean * (9.81 * m @ z - pin * (9.81 * m.sum() - rests))
+    tips = radius * (rests * beside - leans) / (radius * m @ z - across * pin + bears * beside)
+    assert turning * forward == pytest.approx(tips, rel=off)
 
 
 @pytest.mark.parametrize("speed", [3.0, 12.0])

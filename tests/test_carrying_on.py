@@ -125,6 +125,13 @@ def test_the_citation_has_what_version_1_2_of_its_format_requires():
     assert report["isbn"] in (ROOT / "docs" / "theory" / "equations.md").read_text(encoding="utf-8")
 
 
+def test_the_picture_of_the_layers_is_what_is_checked():
+    page = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    drawn = page.partition("Packages are layers")[2].split("```")[1].strip("\n").split("\n")
+    contract = (ROOT / ".importlinter").read_text(encoding="utf-8").partition("layers =\n")[2].partition("\n\n")[0]
+    assert [line.split() for line in drawn] == [re.findall(r"nivel\.([\w.]+)", line) for line in contract.split("\n")]
+
+
 def test_no_address_is_invented():
     """The only one of the project is that of its package."""
     assert PROJECT["project"]["urls"] == {"Homepage": "https://pypi.org/project/nivel/"}

@@ -25,6 +25,7 @@ PAGES = {
     "NOTATION.md": "notation.md",
     "benchmarks/README.md": "benchmarks.md",
     "README.md": "index.md",
+    "ARCHITECTURE.md": "architecture.md",
     "CONTRIBUTING.md": "contributing.md",
     "CHANGELOG.md": "changelog.md",
 }

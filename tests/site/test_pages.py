@@ -29,10 +29,19 @@ from patience import PATIENCE
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
-BESIDE = ("README.md", "NOTATION.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "benchmarks/README.md")
+BESIDE = (
+    "README.md",
+    "NOTATION.md",
+    "ARCHITECTURE.md",
+    "CONTRIBUTING.md",
+    "CHANGELOG.md",
+    "SECURITY.md",
+    "benchmarks/README.md",
+)
 PAGES = sorted([*DOCS.rglob("*.md"), *(ROOT / name for name in BESIDE)])
 # pages that are made when the site is built
 MADE = {
+    "architecture.md",
     "benchmarks.md",
     "changelog.md",
     "cheat-sheet.md",

@@ -197,12 +197,9 @@ class MachineRecord(Checked):
         return any(beam.shares_mass for beam in self.beams)
 
     def problems(self) -> Iterator[Problem]:
-        yield from self._problems_of_surroundings()
-        yield from problems_of_points(self)
-        yield from problems_of_interfaces(self)
-        yield from problems_of_control(self)
-
-    def _problems_of_surroundings(self) -> Iterator[Problem]:
         for k, each in enumerate(self.surroundings):
             if not isinstance(each, Standing) and each.from_ is not None:
                 yield Problem(("surroundings", k), "a solid of the surroundings stands along the axes, at its `centre`")
+        yield from problems_of_points(self)
+        yield from problems_of_interfaces(self)
+        yield from problems_of_control(self)

@@ -88,12 +88,8 @@ def _methods(axes: Axes, own: SimulationSettings) -> Iterator[Method]:
         axes.stabilisations or (own.stabilisation,),
     )
     methods = (Method(*words) for words in combinations)
-    return iter(
-        dict.fromkeys(
-            method if method.formulation == "lagrange" else method._replace(rotations="euler-parameters")
-            for method in methods
-        )
-    )
+    chosen = (m if m.formulation == "lagrange" else m._replace(rotations="euler-parameters") for m in methods)
+    return iter(dict.fromkeys(chosen))
 
 
 def _sizes(axes: Axes, own: SimulationSettings, integrator: str) -> Iterator[tuple[float | None, float | None]]:

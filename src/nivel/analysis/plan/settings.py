@@ -107,12 +107,9 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
     if chosen_steps:
         interval = settings.output_interval or settings.duration / FRAMES
         if settings.duration > MOST_STEPS * interval:
-            faults.append(
-                Fault.at(
-                    "simulation.output_interval",
-                    f"{interval:.6g} s would give more than {MOST_STEPS:.0e} frames in a `duration` of {settings.duration:.6g} s",
-                )
-            )
+            wanted = f"{interval:.6g} s would give more than {MOST_STEPS:.0e} frames"
+            message = f"{wanted} in a `duration` of {settings.duration:.6g} s"
+            faults.append(Fault.at("simulation.output_interval", message))
         if settings.largest_step is not None and settings.duration > MOST_STEPS * settings.largest_step:
             wanted = f"{settings.largest_step:.6g} s would take more than {MOST_STEPS:.0e} steps"
             faults.append(Fault.at("simulation.largest_step", f"{wanted} in a `duration` of {settings.duration:.6g} s"))

@@ -128,7 +128,6 @@ def say_drivers(found: Followed) -> Item:
 
 
 def _look_at_replaced(subject: Actuated) -> Followed | None:
-    """What another motion than that of the drivers is off from these."""
     found = farthest(subject, subject.replaced)
     return found if found is not None and found.missed > AMBER else None
 

@@ -129,7 +129,6 @@ def _look_at_free(subject: Equilibria) -> Remark | None:
 
 
 def _look_at_rest(subject: Equilibria) -> Remark | None:
-    """What makes no force at rest."""
     text = f"At rest: {'; '.join(subject.at_rest)} (said, always green)"
     return Remark("at_rest", "green", text) if subject.at_rest else None
 

@@ -104,7 +104,6 @@ class Unusual(Struct):
 
 
 def _look_for_unusual(subject: Run | Equilibria | Positions) -> list[Unusual]:
-    """What is farthest beyond the usual."""
     found = [Unusual(remark.place, str(remark.fault), remark.number) for remark in remarks(subject.machine)]
     found += [
         Unusual(rope.place.removeprefix("forces."), str(rope.fault), rope.number)

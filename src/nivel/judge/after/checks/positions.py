@@ -232,7 +232,6 @@ def _say_opening(found: Opening) -> Item:
 
 
 def _look_at_curve(subject: Curve) -> Whole:
-    """Whether it is all there is."""
     curve = subject.curve
     return Whole(curve.closed, len(curve.crossed), len(curve.arc))
 

@@ -153,8 +153,8 @@ def _integrals(values: Array, length: Array) -> tuple[Array, Array]:
     size = np.abs(values)
     changes = (values.min(axis=1) < 0.0) & (values.max(axis=1) > 0.0)
     trapezoidal = h * (size[:, 1:-1].sum(axis=1) + 0.5 * (size[:, 0] + size[:, -1]))
-    inner = 4.0 * values[:, 1:-1:2].sum(axis=1) + 2.0 * values[:, 2:-1:2].sum(axis=1)
-    exact = h / 3.0 * (values[:, 0] + values[:, -1] + inner)
+    ends, middles = values[:, 0] + values[:, -1], 4.0 * values[:, 1:-1:2].sum(axis=1)
+    exact = h / 3.0 * (ends + middles + 2.0 * values[:, 2:-1:2].sum(axis=1))
     return exact, np.where(changes, trapezoidal, np.abs(exact))
 
 

@@ -1,5 +1,7 @@
 """Facts of a result: `nivel explain`, how far it can be trusted; `nivel loads`, peaks, power and work, rainflow cycles of signals."""
 
+from __future__ import annotations
+
 import json
 from typing import Any
 

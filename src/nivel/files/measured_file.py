@@ -74,8 +74,10 @@ def _mcap(content: bytes, column: str | None) -> Signal:
     file = reader.make_reader(io.BytesIO(content), decoder_factories=_decoders())
     summary = file.get_summary()
     begin = summary.statistics.message_start_time if summary is not None and summary.statistics is not None else None
-    channels = () if column is None or summary is None else summary.channels.values()
-    named = [each.topic for each in channels if column.startswith(f"{each.topic}.")]  # else it has to be looked for
+    channels = () if summary is None else summary.channels.values()
+    named = [
+        each.topic for each in channels if (column or "").startswith(f"{each.topic}.")
+    ]  # else it has to be looked for
     times: dict[str, list[float]] = {}
     values: dict[str, list[float]] = {}
     for schema, channel, message in file.iter_messages(topics=[max(named, key=len)] if named else None):

@@ -122,7 +122,7 @@ def body_tables(machine: MachineRecord, size: float) -> Bodies:
         centre_b=centre,
         inertia_b=inertia,
         inertia_origin_b=np.ascontiguousarray(inertia + mass[:, None, None] * steiner),
-        whitener_b=whitener,
+        whitener_b=whitener.astype(float, copy=False),
         inverse_root_mass=1.0 / np.sqrt(mass),
         gravity=np.array(machine.gravity, dtype=float),
         theta=theta,

@@ -11,7 +11,7 @@ All that is asked for takes one state, or rows of states, of which there are as 
 
 from collections.abc import Callable
 from math import isfinite
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -89,7 +89,7 @@ class Mechanics:
         Z[self._selected, np.arange(m)] = 1.0
         selection = own.free, self._selected, dependent, own.place[own.place[:, 1] == 0, 0]
         shapes = 3, (f, f), (rows, f), (rows, rows), (rows, rows), max(f, rows), (max(f, 6), max(f, m)), (m, m)
-        return States(
+        arrays: list[Any] = [
             *(each.astype(np.uint32) for each in selection),
             np.stack([self._counted, self._angles], axis=1).astype(np.uint32),
             CLOSED * own.row_scale,
@@ -99,7 +99,8 @@ class Mechanics:
             Z,
             *(np.zeros(each) for each in shapes),
             *(np.zeros(count, np.int64) for count in (1, rows, rows, m)),
-        )
+        ]
+        return States(*arrays)
 
     def _reduction(self) -> Reduction:
         own = self._instant
@@ -193,7 +194,7 @@ class Mechanics:
         return self._answers(FORWARD, self._forward_dynamics, (len(self.names),), q, v, tau, "tau")
 
     def _forward_dynamics(self, q: Array, v: Array | None, tau: Array) -> Array:
-        return np.linalg.solve(self._mass_matrix(q), tau - self._efforts(q, v, None))
+        return np.linalg.solve(self._mass_matrix(q), tau - self._efforts(q, v, None)).astype(float, copy=False)
 
     def inverse_dynamics_derivatives(self, q: Array, v: Array, a: Array) -> tuple[Array, Array]:
         """∂τ/∂q and ∂τ/∂v (f, f) of the efforts of `inverse_dynamics`, exact; columns by the independent coordinates, turns about axes of

@@ -4,8 +4,6 @@
 # pyright: reportOptionalMemberAccess=false
 """Components of hydraulic and pneumatic circuits, a file for each family of kinds."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING, Annotated, Any
 
 from nivel.elements.kind import Kinds, OneOf
